@@ -1,0 +1,39 @@
+# make demo   set everything up and run the main job on a real example
+# make test   set everything up and pass the tests
+# make check  formatting, lint, types, import contract and tests
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+
+.PHONY: demo test check format bench docs clean
+
+$(STAMP): pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev,table]"
+	touch $(STAMP)
+
+demo: $(STAMP)
+	$(BIN)/ncscope run examples/programs/test_program_A.nc --machine examples/machines/xyzac_axes --messages build/demo
+	$(BIN)/ncscope run examples/programs/zero_offsets.nc --machine examples/machines/zero_list
+
+test: $(STAMP)
+	$(BIN)/python -m pytest
+
+check: $(STAMP)
+	$(BIN)/ruff format --check src tests
+	$(BIN)/ruff check src tests
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/python -m pytest
+
+format: $(STAMP)
+	$(BIN)/ruff format src tests
+	$(BIN)/ruff check --fix src tests
+
+docs: $(STAMP)
+	$(BIN)/python -m ncscope.docs docs
+
+clean:
+	rm -rf $(VENV) build

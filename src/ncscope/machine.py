@@ -1,0 +1,132 @@
+"""The machine as its lists describe it: read once, never changed.
+
+Lengths are millimetres and angles degrees, except inside `KinematicParameters`, which stays in the
+units of the list because NC programs read and write it there. `origin` fields say which line of
+which list set a value (`nullp.lis:14`), None when no list did.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ncscope.kinematics.parameters import KinematicParameters
+
+ZERO_GROUPS = 97
+"""Zero offset groups 0..96 (P-ZERO-00002)."""
+CLAMP_GROUPS = 150
+TOOL_RECORDS = 201
+MAX_CHANNEL_AXES = 32
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """One axis of the channel, at its channel index.
+
+    `number` is the logical axis number. `assumed`: no axis list said whether the axis is rotary.
+    `modulo_range`: (low, high) in degrees for a modulo axis, else None.
+    `limits`: software limits (mm or degrees) in the axis system, None when not configured.
+    """
+
+    name: str
+    number: int
+    rotary: bool = False
+    assumed: bool = False
+    modulo_range: tuple[float, float] | None = None
+    limits: tuple[float, float] | None = None
+    reference: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetRecord:
+    """One zero offset or clamp position group: values by channel axis index, mm or degrees.
+
+    `inactive` holds the axis indices that the group leaves out (P-ZERO-00004);
+    `origins` the place that set each axis value.
+    """
+
+    values: Mapping[int, float] = field(default_factory=dict)
+    inactive: frozenset[int] = frozenset()
+    origins: Mapping[int, str] = field(default_factory=dict)
+
+    def effective(self, axis: int) -> float:
+        """The offset that counts for the axis: 0 where the group leaves the axis out."""
+        return 0.0 if axis in self.inactive else self.values.get(axis, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ZeroOffsets:
+    """The zero offset list. `group_0_is_offset` is g53_verfuegbar (P-ZERO-00001)."""
+
+    groups: Mapping[int, OffsetRecord] = field(default_factory=dict)
+    group_0_is_offset: bool = False
+    default_index: int = 0
+
+    def record(self, group: int) -> OffsetRecord:
+        """The record that a selection of `group` brings; empty when group 0 means "no offset"."""
+        if group == 0 and not self.group_0_is_offset:
+            return OffsetRecord()
+        return self.groups.get(group, OffsetRecord())
+
+
+@dataclass(frozen=True, slots=True)
+class Tool:
+    """One tool data record (`wz[i]`): mm, axis offsets by channel axis index.
+
+    `fixed`: P-TOOL-00010, offsets act along machine axes even in a rotated coordinate system.
+    `orientation`: P-TOOL-00146, mount -> tip in the machine system, None when not configured.
+    `kinematic_parameters`: wz[i].kinematic.param[j], list units, added to param[j].
+    """
+
+    length: float = 0.0
+    radius: float = 0.0
+    axis_offsets: Mapping[int, float] = field(default_factory=dict)
+    valid: bool = True
+    fixed: bool = False
+    orientation: tuple[float, float, float] | None = None
+    kinematic_id: int = 0
+    kinematic_parameters: Mapping[int, float] = field(default_factory=dict)
+    origin: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ChannelSettings:
+    """Channel parameters that change what a program means."""
+
+    default_kinematic_id: int = 0  # P-CHAN-00032
+    orientation_mode: int = 0  # P-CHAN-00112 ori_rotation_angle
+    tool_moves_at_once: bool = False  # P-CHAN-00100 move_tool_offsets_directly
+    tool_with_t: bool = False  # P-CHAN-00014 einrechnen_mit_t
+    keep_parameters: bool = False  # P-CHAN-00067 p_param_haltend
+    rotation_sequence: str = "ZYX"  # P-CHAN-00394
+    rotation_fixed: bool = False  # P-CHAN-00393
+    offsets_per_level: bool = True  # P-CHAN-00397
+    orientation_in_cs: bool = False  # P-CHAN-00247 ori_wcs
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """A channel with its axes, offsets, tools and kinematics; frozen.
+
+    `axes` are in channel order: index 0, 1, 2 are the main axes. `known_axes` are all axes that
+    axis lists describe or the channel lists, by logical number: `#SET AX` fetches from them; when
+    it is empty any number may be fetched. `kinematic_parameters`: by kinematic id.
+    """
+
+    name: str = "XYZ"
+    axes: tuple[Axis, ...] = (Axis("X", 1), Axis("Y", 2), Axis("Z", 3))
+    known_axes: Mapping[int, Axis] = field(default_factory=dict)
+    zero_offsets: ZeroOffsets = ZeroOffsets()
+    clamp_positions: Mapping[int, OffsetRecord] = field(default_factory=dict)
+    tools: Mapping[int, Tool] = field(default_factory=dict)
+    kinematic_parameters: Mapping[int, KinematicParameters] = field(default_factory=dict)
+    settings: ChannelSettings = ChannelSettings()
+
+    @property
+    def axis_names(self) -> tuple[str, ...]:
+        return tuple(axis.name for axis in self.axes)
+
+
+def is_rotary_name(name: str) -> bool:
+    """Whether an axis without an axis list is taken as rotary: its name begins with A, B or C."""
+    return name[:1] in ("A", "B", "C")
