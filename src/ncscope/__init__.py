@@ -1,0 +1,50 @@
+"""ncscope: where every axis of a CNC machine goes, and why.
+
+Read the source in this order: `diagnostics`, `frames`, `kinematics`, `language.tree`, `machine`,
+`coordinates`, `channel.state`, `channel.block`, `run`, `trajectory`, `lists`, `views`, `cli`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+__version__ = "0.1.0"
+__all__ = [
+    "Diagnostic",
+    "Machine",
+    "Options",
+    "Program",
+    "Trajectory",
+    "load_machine",
+    "load_program",
+    "render",
+    "run",
+]
+
+_HOME = {
+    "Diagnostic": "ncscope.diagnostics",
+    "Machine": "ncscope.machine",
+    "Options": "ncscope.run",
+    "Program": "ncscope.run",
+    "Trajectory": "ncscope.trajectory",
+    "load_machine": "ncscope.lists",
+    "load_program": "ncscope.loading",
+    "render": "ncscope.diagnostics",
+    "run": "ncscope.run",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Public names are imported when they are used: `ncscope --version` must not wait for numba."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'ncscope' has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(_HOME[name]), name)
+    if name == "run":
+        globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -110,6 +110,7 @@ CATALOGUE: dict[str, Entry] = {
     "20568": Entry("error", "The file ends inside a block comment."),
     "20573": Entry("error", "The operator is unknown."),
     "20574": Entry("error", "Division by zero in an assignment."),
+    "20619": Entry("error", "The macro is not defined."),
     "20868": Entry("error", "EXIST needs a variable or parameter in brackets."),
     "20906": Entry("error", "An array index is out of range."),
     "20908": Entry("error", "This variable may not be declared."),
@@ -161,6 +162,7 @@ CATALOGUE: dict[str, Entry] = {
     "N1003": Entry("error", "A string is not closed."),
     "N1004": Entry("error", "A block is longer than 4000 characters."),
     "N1005": Entry("error", "The command is written wrongly."),
+    "N1006": Entry("error", "The argument of a function is out of range."),
     # Channel, our own
     "N2001": Entry("error", "The command moves positions and is not supported yet."),
     "N2002": Entry("note", "The command has no effect on positions."),
@@ -179,6 +181,7 @@ CATALOGUE: dict[str, Entry] = {
     "N3008": Entry("error", "A folder or start-up list names no machine list."),
     "N3009": Entry("warning", "The kinematics will fail when it is selected."),
     "N3010": Entry("warning", "The kinematics looks unusual; check it."),
+    "N3011": Entry("warning", "A key of a list is spelled with other upper and lower case."),
     # Run, our own
     "N4001": Entry("error", "The program has more blocks than --max-blocks allows."),
     "N4002": Entry("error", "The program cannot be read."),

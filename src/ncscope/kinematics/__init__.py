@@ -1,0 +1,34 @@
+"""Axes <-> tool pose for KIN-ID 91, the universal kinematics. Knows nothing of NC programs.
+
+Reading order: `parameters` (the 70 numbers of a data set), `chain` (the same in mm and unit
+vectors, and its faults), `kernels` (compiled loops: tool from axes, linear axes from tool),
+`orientation` (tool direction <-> rotary axes), `universal` (programming modes, the public class).
+
+Frames: the workpiece system with all axes at 0. Units: mm and degrees. Rotations follow the
+right-hand rule about the entered direction. The tool direction points from the tip to the flange.
+"""
+
+from ncscope.kinematics.chain import CLASSIC, Chain, Fault, validate
+from ncscope.kinematics.orientation import OrientationSolver
+from ncscope.kinematics.parameters import (
+    FIELD_OF_INDEX,
+    INDEX_OF_FIELD,
+    KinematicParameters,
+    field_index,
+)
+from ncscope.kinematics.universal import KinematicsError, UniversalKinematics, explain_status
+
+__all__ = [
+    "CLASSIC",
+    "FIELD_OF_INDEX",
+    "INDEX_OF_FIELD",
+    "Chain",
+    "Fault",
+    "KinematicParameters",
+    "KinematicsError",
+    "OrientationSolver",
+    "UniversalKinematics",
+    "explain_status",
+    "field_index",
+    "validate",
+]

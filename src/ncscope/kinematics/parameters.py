@@ -8,9 +8,10 @@ Source: FCT-C27 section 3.5, P-CHAN-00263 and P-CHAN-00285..00295.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import Any, Mapping
+from typing import Any
 
 PARAMETER_COUNT = 70
 MAX_AXES = 6
@@ -39,6 +40,9 @@ def _field_table() -> dict[str, int]:
     return table
 
 
+MAX_WRITERS = 7
+"""So many earlier writers of a number are remembered: a loop may write it for ever."""
+
 INDEX_OF_FIELD: Mapping[str, int] = MappingProxyType(_field_table())
 FIELD_OF_INDEX: Mapping[int, str] = MappingProxyType({i: f for f, i in _field_table().items()})
 
@@ -63,7 +67,7 @@ class KinematicParameters:
             raise IndexError(f"param[{index}] does not exist; indices are 0 to 69")
         values = (*self.values[:index], float(value), *self.values[index + 1 :])
         origins = dict(self.origins)
-        origins[index] = (*origins.get(index, ()), origin)
+        origins[index] = (*origins.get(index, ())[-MAX_WRITERS:], origin)
         return replace(self, values=values, origins=origins)
 
     def get(self, name: str) -> float:

@@ -1,0 +1,26 @@
+"""NC programs as text: tokens, tree, expressions. Knows no machine and opens no files.
+
+Read `tree` first, then `parser`, `words`, `hashes`, `controls`, `terms`; `expressions` gives
+values to what `terms` has read.
+"""
+
+from ncscope.language.expressions import (
+    Environment,
+    EvaluationError,
+    compile_expression,
+    evaluate,
+    indices_of,
+)
+from ncscope.language.parser import Program, iterate_blocks, parse_block, parse_program
+
+__all__ = [
+    "Environment",
+    "EvaluationError",
+    "Program",
+    "compile_expression",
+    "evaluate",
+    "indices_of",
+    "iterate_blocks",
+    "parse_block",
+    "parse_program",
+]

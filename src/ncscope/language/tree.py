@@ -115,7 +115,7 @@ Expression = (
 
 @dataclass(frozen=True, slots=True)
 class GWord:
-    """`G01`, `G[expr]`, `G159=3`, `G82 [1,2]`; `value` stands after `=`, `arguments` in brackets."""
+    """`G01`, `G[expr]`, `G159=3`, `G82 [1,2]`: `value` after `=`, `arguments` in brackets."""
 
     number: Expression
     value: Expression | None

@@ -1,0 +1,1 @@
+"""What people and scripts read: tables, lines, explanations, message files. Changes nothing."""

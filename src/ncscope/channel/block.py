@@ -1,0 +1,365 @@
+"""One block: collected, checked, committed.
+
+Enters: machine, state, block. Leaves: the next state with moves, messages and diagnostics. On an
+error the state is as before the block.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ncscope.channel import offsets
+from ncscope.channel.commands import COMMANDS
+from ncscope.channel.draft import BlockError, Draft, Message
+from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
+from ncscope.channel.state import State
+from ncscope.channel.variables import evaluate_number, write_variable
+from ncscope.channel.words import PRESET_NAMES, collect_axes
+from ncscope.diagnostics import Diagnostic, Span
+from ncscope.language import tree
+from ncscope.language.commands import lookup
+from ncscope.machine import ZERO_GROUPS, Machine
+from ncscope.motion import Move
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What one block did. `ended`: the program is over (M02, M30)."""
+
+    state: State
+    moves: tuple[Move, ...] = ()
+    messages: tuple[Message, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+    ended: bool = False
+
+    @property
+    def failed(self) -> bool:
+        return any(d.is_error for d in self.diagnostics)
+
+
+@dataclass
+class Words:
+    """The words of one block, each evaluated, waiting for the rule that takes it."""
+
+    gfunctions: dict[int, tree.GWord] = field(default_factory=dict)
+    values: dict[int, float] = field(default_factory=dict)
+    axes: dict[int, tuple[float, Span]] = field(default_factory=dict)
+    addresses: dict[str, tuple[float, Span]] = field(default_factory=dict)
+    mfunctions: dict[int, Span] = field(default_factory=dict)
+
+
+def execute(machine: Machine, state: State, block: tree.Block) -> Step:
+    """The step that a block makes."""
+    draft = Draft(machine, state, block.span.place)
+    try:
+        _execute(draft, block)
+    except BlockError as error:
+        return Step(state, diagnostics=(*draft.diagnostics, error.diagnostic))
+    return Step(
+        draft.state,
+        tuple(draft.moves),
+        tuple(draft.messages),
+        tuple(draft.diagnostics),
+        draft.ended,
+    )
+
+
+def _execute(draft: Draft, block: tree.Block) -> None:
+    """The order of effects inside a block (nc_language sheet, section 6)."""
+    # 1. Block number; what is not supported yet is refused by name.
+    number = None if block.number is None else round(evaluate_number(draft, block.number))
+    draft.state = replace(draft.state, block=number)
+    _refuse_flow(draft, block)
+    # 2. # commands and declarations.
+    for declaration in block.declarations:
+        COMMANDS["VAR"](draft, declaration)
+    for command in block.commands:
+        _command(draft, command, block)
+    # 3. Words from left to right; an assignment acts before the words that follow it.
+    words = _collect(draft, block.words)
+    # 4. Modal functions, 5. offsets, 6. tool, feed, 7. motion, 8. program end.
+    for rule in RULES:
+        rule(draft, words)
+    _reject_unused(draft, words)
+
+
+def _refuse_flow(draft: Draft, block: tree.Block) -> None:
+    if block.header is not None and block.header.startswith("L "):
+        _later(draft, block.span, "a local subprogram (%L)")
+    if block.control is not None:
+        _later(draft, block.control.span, f"${block.control.keyword}")
+    for word in block.words:
+        if isinstance(word, tree.Call):
+            _later(draft, word.span, f"a subprogram call ({word.kind})")
+        if isinstance(word, (tree.Macro, tree.MacroDefinition)):
+            _later(draft, word.span, "a macro")
+        if isinstance(word, tree.AxisCommand):
+            _later(draft, word.span, f"the axis command {word.name}[{word.keyword} ..]")
+
+
+def _later(draft: Draft, span: Span, what: str) -> None:
+    draft.fail(
+        "N2001",
+        span,
+        f"{what} is not supported yet",
+        "the run stops here, because positions after it would not be right",
+    )
+
+
+def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None:
+    row = lookup(command.name)
+    if command.name in COMMANDS:
+        COMMANDS[command.name](draft, command)
+    elif row is not None and row.kind == "no effect":
+        draft.warn("N2002", command.span, f"#{command.name} has no effect on positions")
+    else:
+        _later(draft, command.span, f"#{command.name}")
+    moving = [w for w in block.words if isinstance(w, tree.GWord)]
+    if command.name in PRESET_NAMES and moving:
+        draft.fail(
+            "20607",
+            moving[0].span,
+            f"#{command.name} cannot stand in a block with G functions",
+            "write it in a block of its own",
+        )
+
+
+# --- collect -----------------------------------------------------------------------------------
+
+
+def _collect(draft: Draft, words: tuple[tree.Word, ...]) -> Words:
+    collected = Words()
+    for word in words:
+        match word:
+            case tree.Assignment():
+                write_variable(draft, word)
+            case tree.GWord():
+                _collect_g(draft, collected, word)
+            case tree.MWord():
+                number = round(evaluate_number(draft, word.number))
+                collected.mfunctions[number] = word.span
+            case tree.AddressWord():
+                _collect_address(draft, collected, word)
+            case tree.AxisWord():
+                collect_axes(draft, collected.axes, word)
+            case tree.SpindleWord():
+                draft.warn("N2002", word.span, f"spindle word {word.name} does not move an axis")
+    return collected
+
+
+def _collect_g(draft: Draft, collected: Words, word: tree.GWord) -> None:
+    number = round(evaluate_number(draft, word.number))
+    known = GFUNCTIONS.get(number)
+    if known is None:
+        draft.fail("20131", word.span, f"G{number} is unknown")
+    for other, first in collected.gfunctions.items():
+        group = GFUNCTIONS[other]
+        if known.group is not None and group.group == known.group:
+            draft.fail(
+                known.double_id or "20108",
+                word.span,
+                f"G{number:02d} and G{other:02d} exclude each other in one block",
+                notes=(("the other one", first.span),),
+            )
+    collected.gfunctions[number] = word
+    if word.value is not None:
+        collected.values[number] = evaluate_number(draft, word.value)
+
+
+ADDRESS_TWICE = {"D": "20170", "F": "20175", "T": "20165", "I": "20205", "J": "20205", "K": "20205"}
+
+
+def _collect_address(draft: Draft, collected: Words, word: tree.AddressWord) -> None:
+    if word.letter in collected.addresses:
+        draft.fail(
+            ADDRESS_TWICE.get(word.letter, "N2003"),
+            word.span,
+            f"the block has two {word.letter} words",
+        )
+    collected.addresses[word.letter] = (evaluate_number(draft, word.value), word.span)
+
+
+# --- rules: each takes the words it owns -------------------------------------------------------
+
+
+def _refuse_g(draft: Draft, words: Words) -> None:
+    for number, word in words.gfunctions.items():
+        row: GFunction = GFUNCTIONS[number]
+        if row.effect == "later":
+            _later(draft, word.span, f"G{number:02d} ({row.purpose})")
+        if row.effect == "quiet":
+            draft.warn("N2002", word.span, f"G{number:02d} has no effect on positions")
+    weighted = [n for n in words.gfunctions if n in WEIGHTED]
+    if weighted or 4 in words.gfunctions:
+        words.axes.clear()  # weights of G130.. or the time of G04, not positions
+
+
+def _modal(draft: Draft, words: Words) -> None:
+    for number in words.gfunctions:
+        if number in (0, 1):
+            draft.modal(motion=f"G{number:02d}")
+        elif number in (70, 71):
+            draft.modal(inch=number == 70)
+        elif number in (90, 91):
+            draft.modal(absolute=number == 90)
+        elif number in (17, 18, 19):
+            draft.modal(plane=number)
+            draft.state = offsets.with_tool(draft.state, draft.state.tool)
+
+
+def _zero_offset(draft: Draft, words: Words) -> None:
+    for number, word in words.gfunctions.items():
+        if GFUNCTIONS[number].group != "zero":
+            continue
+        index = number - 53
+        if number == 159:
+            index = _group_index(draft, words, word)
+        draft.state = offsets.select_zero(draft.state, index, draft.place)
+
+
+def _group_index(draft: Draft, words: Words, word: tree.GWord) -> int:
+    number = 159 if 159 in words.gfunctions and words.gfunctions[159] is word else 160
+    if number not in words.values:
+        draft.fail(
+            "20147", word.span, f"G{number} needs the index of a group", f"write G{number}=2"
+        )
+    index = round(words.values[number])
+    if not 0 <= index < ZERO_GROUPS:
+        draft.fail(
+            "20149",
+            word.span,
+            f"zero offset group {index} does not exist; indices are 0 to {ZERO_GROUPS - 1}",
+        )
+    return index
+
+
+def _mask_group(draft: Draft, words: Words) -> None:
+    """G160=2 X1 Y0: leave X out of group 2, take Y in; counts at the next selection."""
+    if 160 not in words.gfunctions:
+        return
+    index = _group_index(draft, words, words.gfunctions[160])
+    table = draft.state.zero_offsets
+    record = table.groups.get(index, offsets.OffsetRecord())
+    inactive = set(record.inactive)
+    for axis, (value, _span) in words.axes.items():
+        (inactive.add if abs(value) >= 0.5 else inactive.discard)(axis)
+    groups = {**table.groups, index: replace(record, inactive=frozenset(inactive))}
+    draft.state = replace(draft.state, zero_offsets=replace(table, groups=groups))
+    words.axes.clear()
+
+
+def _reference_point(draft: Draft, words: Words) -> None:
+    """G92: machine = programmed + zero offset + G92; G90 replaces, G91 adds."""
+    if 92 not in words.gfunctions:
+        return
+    if not words.axes:
+        draft.fail(
+            "N2004",
+            words.gfunctions[92].span,
+            "G92 needs at least one axis with its offset",
+            "write for example G92 X10; G92 X0 takes the offset away",
+        )
+    values = {axis: draft.length(axis, value) for axis, (value, _) in words.axes.items()}
+    add = not draft.modes.absolute
+    draft.state = offsets.set_offsets(draft.state, "g92", "G92", values, draft.place, add)
+    words.axes.clear()
+
+
+def _tool(draft: Draft, words: Words) -> None:
+    place = words.addresses.pop("T", None)
+    record = words.addresses.pop("D", None)
+    if place is not None:
+        tool = replace(draft.state.tool, place=round(place[0]))
+        draft.state = replace(draft.state, tool=tool)
+        if draft.machine.settings.tool_with_t and record is None:
+            record = place
+    if record is not None:
+        _select_tool(draft, round(record[0]), record[1])
+
+
+def _select_tool(draft: Draft, index: int, span: Span) -> None:
+    before = draft.state
+    if index == 0:
+        draft.state = offsets.select_tool(draft.state, 0, offsets.Tool(), draft.place)
+    else:
+        tool = draft.machine.tools.get(index)
+        if tool is None:
+            has = " ".join(f"D{i}" for i in sorted(draft.machine.tools)) or "no tool data at all"
+            draft.fail("20172", span, f"tool data D{index} does not exist; the lists have {has}")
+        if not tool.valid:
+            draft.fail(
+                "20691",
+                span,
+                f"tool data D{index} is not valid",
+                f"set wz[{index}].gueltig to 1 ({tool.origin})",
+            )
+        draft.state = offsets.select_tool(draft.state, index, tool, draft.place)
+    if draft.machine.settings.tool_moves_at_once and before.coordinates.kinematics is None:
+        draft.move_to(before.position.program, span)
+
+
+def _technology(draft: Draft, words: Words) -> None:
+    feed = words.addresses.pop("F", None)
+    if feed is not None:
+        if feed[0] <= 0:
+            draft.fail("20176", feed[1], "the feed must be greater than 0")
+        draft.modal(feed=feed[0] * draft.modes.length_factor)
+    for letter in ("S", "E", "H"):
+        words.addresses.pop(letter, None)
+    for number, span in words.mfunctions.items():
+        if number in (17, 29):
+            _later(draft, span, f"M{number} (return from a subprogram)")
+
+
+def _centre_words(draft: Draft, words: Words) -> None:
+    for letter in ("I", "J", "K"):
+        word = words.addresses.pop(letter, None)
+        if word is not None:
+            draft.warn("20048", word[1], f"{letter} has no effect in a linear block")
+
+
+def _motion(draft: Draft, words: Words) -> None:
+    if not words.axes:
+        return
+    modes = draft.modes
+    program = np.array(draft.state.position.program)
+    for axis, (value, _span) in words.axes.items():
+        length = draft.length(axis, value)
+        program[axis] = length if modes.absolute else program[axis] + length
+    span = next(iter(words.axes.values()))[1]
+    if modes.motion == "G01" and modes.feed is None and not modes.feed_warned:
+        draft.warn("20008", span, "a feed motion is programmed without a feed (F)")
+        draft.modal(feed_warned=True)
+    draft.move_to(program, span)
+    words.axes.clear()
+
+
+def _end(draft: Draft, words: Words) -> None:
+    for number, span in words.mfunctions.items():
+        if number in (2, 30):
+            draft.ended = True
+            if draft.state.coordinates.kinematics is not None:
+                draft.warn("21247", span, "a transformation is still active at program end")
+
+
+def _reject_unused(draft: Draft, words: Words) -> None:
+    for letter, (_value, span) in words.addresses.items():
+        draft.fail("N2003", span, f"word {letter} is not used by any command in this block")
+
+
+RULES: tuple[Callable[[Draft, Words], None], ...] = (
+    _refuse_g,
+    _modal,
+    _zero_offset,
+    _mask_group,
+    _reference_point,
+    _tool,
+    _technology,
+    _centre_words,
+    _motion,
+    _end,
+)
+"""The rules in their order of effect; each takes its words and leaves the rest."""

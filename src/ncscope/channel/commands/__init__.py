@@ -1,0 +1,17 @@
+"""The # commands that change state: one table from name to rule.
+
+Commands without effect on positions and commands that are refused stand in the table of
+`language.commands`; what is in neither is unknown.
+"""
+
+from ncscope.channel.commands import axes, messages, preset, systems, transformation
+from ncscope.channel.commands import declarations as declared
+
+COMMANDS = {
+    **systems.COMMANDS,
+    **preset.COMMANDS,
+    **transformation.COMMANDS,
+    **axes.COMMANDS,
+    **messages.COMMANDS,
+    **declared.COMMANDS,
+}

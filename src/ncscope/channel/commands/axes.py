@@ -1,0 +1,161 @@
+"""#SET AX, #CHANNEL INIT and #FLUSH: the axes of the channel and their positions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ncscope.channel import offsets
+from ncscope.channel.draft import Draft
+from ncscope.channel.state import Position, State
+from ncscope.channel.variables import evaluate_number
+from ncscope.coordinates import Level, Offset
+from ncscope.language import tree
+from ncscope.machine import MAX_CHANNEL_AXES, Axis, is_rotary_name
+
+AXIS_LETTERS = "ABCQUVWXYZ"
+
+
+def set_ax(draft: Draft, command: tree.HashCommand) -> None:
+    """#SET AX [X,1,0] [Y,2,1]: these axes are the channel now; index 0 to 2 are the main axes."""
+    if draft.state.coordinates.kinematics is not None:
+        draft.fail(
+            "20683",
+            command.span,
+            "axes cannot be exchanged while a transformation is active",
+            "switch it off first (#TRAFO OFF)",
+        )
+    groups = [g for g in command.groups if not _is_option(draft, g)]
+    if not groups:
+        draft.fail("20480", command.span, "#SET AX needs axes", _FORM)
+    placed: dict[int, Axis] = {}
+    for group in groups:
+        index, axis = _axis(draft, group)
+        _check_unique(draft, group, placed, index, axis)
+        placed[index] = axis
+    if sorted(placed) != list(range(len(placed))):
+        draft.fail(
+            "N1005",
+            command.span,
+            "the indices of the axes have a gap; that is not supported",
+            f"number them from 0 to {len(placed) - 1}",
+        )
+    draft.state = _with_axes(draft.state, tuple(placed[i] for i in sorted(placed)))
+
+
+_FORM = "write [name, logical number, index], for example #SET AX [X,1,0] [Y,2,1] [Z,3,2]"
+
+
+def _is_option(draft: Draft, group: tree.Group) -> bool:
+    """`FAST` and take-over options in a bracket of their own change no position here."""
+    return len(group.cells) == 1 and all(isinstance(i.value, tree.Name) for i in group.items)
+
+
+def _axis(draft: Draft, group: tree.Group) -> tuple[int, Axis]:
+    places = group.places
+    if len(places) < 3:
+        draft.fail("21251", group.span, "an axis needs its name, number and index", _FORM)
+    if len(places) > 3:
+        draft.warn("N2006", group.span, "the take-over option of #SET AX is ignored")
+    name, number, index = places[:3]
+    if not isinstance(name, tree.Name) or name.text[:1] not in AXIS_LETTERS:
+        draft.fail("20797", group.span, "an axis name begins with A B C Q U V W X Y or Z", _FORM)
+    if number is None or index is None:
+        draft.fail("21251", group.span, "an axis needs its name, number and index", _FORM)
+    channel_index = round(evaluate_number(draft, index))
+    if not 0 <= channel_index < MAX_CHANNEL_AXES:
+        draft.fail("20697", group.span, f"index {channel_index} is not 0 to {MAX_CHANNEL_AXES - 1}")
+    return channel_index, _known(draft, group, name.text, round(evaluate_number(draft, number)))
+
+
+def _known(draft: Draft, group: tree.Group, name: str, number: int) -> Axis:
+    """The axis of the lists under its name in the channel; by its letter where no list has it."""
+    known = draft.machine.known_axes
+    if number in known:
+        return replace(known[number], name=name)
+    if known and len(known) > len(draft.machine.axes):
+        has = " ".join(str(i) for i in sorted(known))
+        draft.fail("20312", group.span, f"axis number {number} is unknown; the lists have {has}")
+    for axis in draft.state.axes:
+        if axis.number == number and axis.name == name:
+            return axis
+    return Axis(name, number, rotary=is_rotary_name(name), assumed=True)
+
+
+def _check_unique(
+    draft: Draft, group: tree.Group, placed: dict[int, Axis], index: int, axis: Axis
+) -> None:
+    if index in placed:
+        draft.fail("21257", group.span, f"index {index} is used twice")
+    if any(a.name == axis.name for a in placed.values()):
+        draft.fail("21256", group.span, f"axis name {axis.name} is used twice")
+    if any(a.number == axis.number for a in placed.values()):
+        draft.fail("20888", group.span, f"axis number {axis.number} is used twice")
+
+
+def _with_axes(state: State, axes: tuple[Axis, ...]) -> State:
+    """Another channel configuration. An axis that stays keeps its position and its offsets."""
+    old = {axis.number: i for i, axis in enumerate(state.axes)}
+    parked = {
+        **state.parked,
+        **{axis.number: float(p) for axis, p in zip(state.axes, state.position.axes, strict=True)},
+    }
+    sources = [old.get(axis.number) for axis in axes]
+    position = np.array([parked.get(axis.number, 0.0) for axis in axes])
+    levels = tuple(_moved_level(level, sources) for level in state.coordinates.levels)
+    coordinates = replace(state.coordinates, axis_count=len(axes), levels=levels)
+    state = replace(
+        state,
+        axes=axes,
+        coordinates=coordinates,
+        parked=parked,
+        position=Position(position, coordinates.to_program(position)),
+    )
+    return offsets.with_tool(state, state.tool)
+
+
+def _moved_level(level: Level, sources: list[int | None]) -> Level:
+    def moved(offset: Offset) -> Offset:
+        values = tuple(0.0 if s is None else offset.values[s] for s in sources)
+        origins = tuple(None if s is None else offset.origins[s] for s in sources)
+        return replace(offset, values=values, origins=origins)
+
+    return replace(level, offsets=tuple((k, moved(o)) for k, o in level.offsets))
+
+
+def channel_init(draft: Draft, command: tree.HashCommand) -> None:
+    """#CHANNEL INIT [CMDPOS] | [ACTPOS {AX=X}]: the channel takes the present positions.
+
+    Axes are ideal here, so command and actual positions are the same and nothing changes.
+    """
+    items = [item for group in command.groups for item in group.items]
+    if not items:
+        draft.fail("20480", command.span, "#CHANNEL INIT needs [CMDPOS] or [ACTPOS]")
+    first = items[0].value
+    word = first.text.upper() if isinstance(first, tree.Name) and not items[0].key else ""
+    if word not in ("CMDPOS", "ACTPOS"):
+        draft.fail("N1005", command.span, "#CHANNEL INIT needs [CMDPOS] or [ACTPOS]")
+    for item in items[1:]:
+        if word == "CMDPOS":
+            draft.fail("21508", item.span, "AX can only be given with ACTPOS")
+        if item.key == "AX" and isinstance(item.value, tree.Name):
+            draft.axis_index(item.value.text, item.span, "20797")
+        elif item.key != "AXNR":
+            draft.fail("N1005", item.span, "only AX=.. and AXNR=.. can stand here")
+    state = draft.state
+    program = state.coordinates.to_program(state.position.axes)
+    draft.state = replace(state, position=Position(state.position.axes, program))
+
+
+def flush(draft: Draft, command: tree.HashCommand) -> None:
+    """#FLUSH, #FLUSH WAIT: blocks are executed one after the other here; nothing is buffered."""
+
+
+COMMANDS = {
+    "SET AX": set_ax,
+    "CHANNEL INIT": channel_init,
+    "FLUSH": flush,
+    "FLUSH WAIT": flush,
+    "FLUSH CONTINUE": flush,
+}

@@ -1,0 +1,102 @@
+"""#MSG SAVE, #MSG and #FILE NAME: texts that a program writes (TF5200 #MSG)."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from ncscope.channel.draft import Draft, Message
+from ncscope.channel.variables import evaluate_value
+from ncscope.language import tree
+
+FORMAT_ITEM = re.compile(r"%(.?)")
+MAX_VALUES = 10
+MAX_TEXT = 512
+
+
+def save(draft: Draft, command: tree.HashCommand) -> None:
+    """#MSG SAVE [EXCLUSIVE] [CONTINUE] ["text %f", value ..]: one line of the message file.
+
+    EXCLUSIVE writes the text alone; without it the text stands in quotes. The time stamp of the
+    control is left out: the same program writes the same file.
+    """
+    words = {m.upper() for m in command.modifiers}
+    text = _text(draft, command)
+    if "EXCLUSIVE" not in words:
+        text = f'"{text}"'
+    end = "" if "CONTINUE" in words else "\n"
+    draft.messages.append(Message(draft.state.message_file, text, end))
+
+
+def show(draft: Draft, command: tree.HashCommand) -> None:
+    """#MSG ["text"]: a message to a display."""
+    draft.messages.append(Message(None, _text(draft, command)))
+
+
+def file_name(draft: Draft, command: tree.HashCommand) -> None:
+    """#FILE NAME [MSG=file]: where #MSG SAVE writes from now on."""
+    items = [item for group in command.groups for item in group.items]
+    if not items:
+        draft.fail("20480", command.span, "#FILE NAME needs a name, for example [MSG=log.txt]")
+    for item in items:
+        if item.key != "MSG":
+            what = f"#FILE NAME [{item.key or ''}=..]"
+            draft.fail("N2001", item.span, f"{what} is not supported yet")
+        name = item.value.text if isinstance(item.value, tree.Name) else None
+        if item.value is not None and name is None:
+            name = str(evaluate_value(draft, item.value))
+        if not name:
+            draft.fail("N1005", item.span, "a file name is missing")
+        draft.state = replace(draft.state, message_file=name)
+
+
+def _text(draft: Draft, command: tree.HashCommand) -> str:
+    if not command.groups or not command.groups[-1].places:
+        draft.fail("20480", command.span, 'a message needs its text: ["text"]')
+    first, *rest = command.groups[-1].places
+    if first is None:
+        draft.fail("20726", command.span, "the text of the message is missing")
+    template = evaluate_value(draft, first)
+    if not isinstance(template, str):
+        draft.fail("20721", first.span, "a message begins with its text in quotes")
+    if len(template) > MAX_TEXT:
+        draft.fail("20723", first.span, f"the text is longer than {MAX_TEXT} characters")
+    values = []
+    for place in rest:
+        if place is None:
+            draft.fail("20726", command.groups[-1].span, "a value of the message is missing")
+        values.append((evaluate_value(draft, place), place))
+    return _format(draft, template, first, values)
+
+
+def _format(draft: Draft, template: str, text: tree.Expression, values: list) -> str:
+    """%d %D whole number, %f %F six decimals, %s %S text, %% a percent sign."""
+    remaining = list(values)
+
+    def item(match: re.Match[str]) -> str:
+        letter = match.group(1)
+        if letter == "%":
+            return "%"
+        if letter.lower() not in ("d", "f", "s") or not letter:
+            draft.fail(
+                "21180",
+                text.span,
+                f"the format item %{letter} is unknown",
+                "known are %d, %f, %s and %%",
+            )
+        if not remaining:
+            draft.fail("20726", text.span, "the text has more format items than values")
+        value, place = remaining.pop(0)
+        if letter in "sS":
+            return value if isinstance(value, str) else f"{value:g}"
+        if isinstance(value, str):
+            draft.fail("20721", place.span, f"%{letter} needs a number")
+        return f"{round(value):d}" if letter in "dD" else f"{value:f}"
+
+    result = FORMAT_ITEM.sub(item, template)
+    if remaining:
+        draft.fail("20724", remaining[0][1].span, "the message has more values than format items")
+    return result
+
+
+COMMANDS = {"MSG SAVE": save, "MSG": show, "MSG INFO": show, "FILE NAME": file_name}

@@ -1,0 +1,107 @@
+"""The draft of one block: what it collects before it is committed, or dropped whole.
+
+A rule reports the user's mistake with `Draft.fail`, which ends the block; the state stays as it
+was before the block.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any, NoReturn
+
+import numpy as np
+
+from ncscope.channel.state import Modal, Position, State
+from ncscope.coordinates import Coordinates
+from ncscope.diagnostics import Diagnostic, Span, diagnostic
+from ncscope.kinematics.universal import KinematicsError
+from ncscope.machine import Machine
+from ncscope.motion import Move
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """A text that the program wrote; `file` is None for a message to a display.
+
+    end: what follows the text in the file (a line end, or nothing with CONTINUE).
+    """
+
+    file: str | None
+    text: str
+    end: str = "\n"
+
+
+class BlockError(Exception):
+    """Carries the diagnostic that ends the block; caught where the block is executed."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.message)
+        self.diagnostic = diagnostic
+
+
+@dataclass
+class Draft:
+    """The working copy of the state during one block."""
+
+    machine: Machine
+    state: State
+    place: str = ""
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    messages: list[Message] = field(default_factory=list)
+    moves: list[Move] = field(default_factory=list)
+    ended: bool = False
+
+    def fail(self, id: str, span: Span, message: str, hint: str = "", **more: Any) -> NoReturn:
+        raise BlockError(diagnostic(id, span, message, hint, **more))
+
+    def warn(self, id: str, span: Span, message: str, hint: str = "") -> None:
+        self.diagnostics.append(diagnostic(id, span, message, hint))
+
+    # --- axes ----------------------------------------------------------------------------------
+
+    def axis_index(self, name: str, span: Span, id: str = "20200") -> int:
+        """Channel index of an axis; fails with the axes that exist."""
+        names = self.state.axis_names
+        if name in names:
+            return names.index(name)
+        other = [n for n in names if n.lower() == name.lower()]
+        hint = f"axis names are case-sensitive: write {other[0]}" if other else ""
+        has = " ".join(names)
+        self.fail(id, span, f"axis {name} is not in this channel; it has the axes {has}", hint)
+
+    def length(self, axis: int, value: float) -> float:
+        """A programmed value of an axis in mm or degrees."""
+        return value if self.state.axes[axis].rotary else value * self.state.modal.length_factor
+
+    def shown(self, axis: int, value: float) -> float:
+        """A value in mm or degrees as the program reads it (inches under G70)."""
+        return value if self.state.axes[axis].rotary else value / self.state.modal.length_factor
+
+    # --- changes -------------------------------------------------------------------------------
+
+    def modal(self, **changes: Any) -> None:
+        self.state = replace(self.state, modal=replace(self.state.modal, **changes))
+
+    @property
+    def modes(self) -> Modal:
+        return self.state.modal
+
+    def set_coordinates(self, coordinates: Coordinates, span: Span) -> None:
+        """Other coordinates with the axes where they are."""
+        try:
+            self.state = self.state.with_coordinates(coordinates)
+        except KinematicsError as error:
+            self.fail(error.id, span, str(error))
+
+    def move_to(self, program: np.ndarray, span: Span) -> None:
+        """A motion to programmed values (n,), mm and degrees."""
+        state = self.state
+        try:
+            axes = state.coordinates.to_axes(program, near=state.position.axes)
+        except KinematicsError as error:
+            self.fail(error.id, span, str(error))
+        if not np.all(np.isfinite(axes)):
+            self.fail("21883", span, "the axis position is too large to be computed")
+        self.state = replace(state, position=Position(axes, program))
+        modes = state.modal
+        self.moves.append(Move(modes.motion, modes.feed, program, axes, state.block, span))

@@ -1,0 +1,82 @@
+"""Every G function: its modal group, the control's id for two of a group, and what it does here.
+
+`effect` is `motion`, `modal`, `offset`, `quiet` (no effect on positions, noted once) or `later`
+(moves positions and is refused by name).
+Source: nc_language sheet section 8; P-CHAN-00063 modal groups.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class GFunction(NamedTuple):
+    """group: modal group or None. double_id: diagnostic for two functions of the group."""
+
+    group: str | None
+    double_id: str | None
+    effect: str
+    purpose: str
+
+
+def _rows() -> dict[int, GFunction]:
+    table: dict[int, GFunction] = {}
+
+    def add(numbers: str, group: str | None, double_id: str | None, effect: str, purpose: str):
+        for number in numbers.split():
+            table[int(number)] = GFunction(group, double_id, effect, purpose)
+
+    # fmt: off
+    add("0 1", "motion", "20108", "motion", "linear motion, rapid or with feed")
+    add("2 3", "motion", "20108", "later", "circular motion")
+    add("4", "motion", "20108", "quiet", "dwell")
+    add("33 63 331 332", "motion", "20108", "later", "thread cutting and tapping")
+    add("74", "motion", "20108", "later", "homing")
+    add("98 99", "motion", "20108", "later", "software limits from the program")
+    add("160", None, None, "offset", "take axes into or out of a zero offset group")
+    add("301 302", "corner", None, "later", "chamfer and rounding")
+    add("303", None, None, "later", "circle in space")
+    add("8 9 900 901 193 293", None, None, "quiet", "acceleration and feed at block limits")
+    add("40", "radius", None, "quiet", "cutter radius compensation off")
+    add("41 42", "radius", None, "later", "cutter radius compensation")
+    add("5 10 11 12 13 25 26 138 139 140 141 236 237 238 239", None, None, "quiet",
+        "behaviour of the cutter radius compensation")
+    add("17 18 19", "plane", "20111", "modal", "working plane")
+    add("20", "mirror", "20112", "quiet", "mirror off")
+    add("21 22 23 351", "mirror", "20112", "later", "mirror")
+    add("51", "diameter", "20115", "later", "diameter programming")
+    add("52", "diameter", "20115", "quiet", "diameter programming off")
+    add("53 54 55 56 57 58 59 159", "zero", "20116", "offset", "zero offset")
+    add("60 61 260 261 359 360", "exact stop", "20117", "quiet", "exact stop and contouring")
+    add("166 167", "override", None, "quiet", "override fixed at 100 %")
+    add("68", "rotation", None, "later", "contour rotation")
+    add("69", "rotation", None, "quiet", "contour rotation off")
+    add("70 71", "unit", "20118", "modal", "inches or millimetres")
+    add(" ".join(map(str, [*range(80, 90), *range(800, 840)])), "cycle", "20119", "later",
+        "implicit subprogram call")
+    add("90 91", "absolute", "20120", "modal", "absolute or relative values")
+    add("92", None, None, "offset", "reference point offset")
+    add("93 94 95 194", "feed", "20121", "quiet", "meaning of F")
+    add("96 97 196", "speed", "20122", "quiet", "meaning of S")
+    add("112 115 116 117 127 128 129 130 131 132 133 134 135 136 137 230 231 232 233 333 334 "
+        "335 336 337 338 339", None, None, "quiet", "dynamics, weights and feedforward")
+    add("100 106 107 108 310", "measuring", "20123", "later", "measuring run")
+    add("101 102", "measuring", "20123", "later", "measured offset")
+    add("150", None, None, "quiet", "spline off")
+    add("151", None, None, "later", "spline")
+    add("161 162", "centre", "20127", "quiet", "circle centre absolute or relative")
+    add("163", None, None, "later", "radius programming")
+    add("164 165", "correction", "20128", "quiet", "circle centre correction")
+    add("200 201", "manual", "20129", "later", "manual mode")
+    add("202", "manual", "20129", "quiet", "manual mode off")
+    add("66", None, None, "quiet", "cycle synchronisation")
+    # fmt: on
+    return table
+
+
+GFUNCTIONS = _rows()
+
+WEIGHTED = frozenset(
+    n for n, g in GFUNCTIONS.items() if g.purpose == "dynamics, weights and feedforward"
+)
+"""Functions whose axis words are weights or factors, not positions."""

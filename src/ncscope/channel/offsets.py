@@ -1,0 +1,125 @@
+"""Offsets and tool data: each function returns the state under other coordinates.
+
+Nothing here moves an axis: a new offset counts from the next absolute word of its axis.
+Source: offsets sheet 2 and 3; P-ZERO-00001..00004; TF5200 G92, #PSET, tool data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from ncscope.channel.state import SelectedTool, State
+from ncscope.coordinates import ActiveTool, Level, Offset
+from ncscope.machine import OffsetRecord, Tool
+
+
+def zero_name(index: int) -> str:
+    """`G54` for group 1, `G159=7` for the groups without a G function of their own."""
+    return f"G{53 + index}" if index <= 6 else f"G159={index}"
+
+
+def select_zero(state: State, index: int, place: str) -> State:
+    """The zero offset group `index` in the innermost level (G53..G59, G159)."""
+    record = state.zero_offsets.record(index)
+    offset = _offset_from_record(state, zero_name(index), record, place)
+    if index == 0 and not state.zero_offsets.group_0_is_offset:
+        offset = None
+    return replace(_with_offset(state, "zero", offset), zero_index=index)
+
+
+def select_clamp(state: State, index: int, record: OffsetRecord) -> State:
+    """The clamp position `index`: it belongs to the workpiece level and stays for the program."""
+    offset = _offset_from_record(state, "clamp", record, f"clamp position {index}")
+    level = state.coordinates.levels[0].with_offset("clamp", offset)
+    coordinates = replace(state.coordinates, levels=(level, *state.coordinates.levels[1:]))
+    return replace(state.with_coordinates(coordinates), clamp_index=index)
+
+
+def set_offsets(
+    state: State, kind: str, name: str, values: Mapping[int, float], place: str, add: bool = False
+) -> State:
+    """Values of one kind for the axes given; other axes keep theirs. `add` adds to the old."""
+    held = state.coordinates.top.offset(kind)
+    n = len(state.axes)
+    new = list(held.values) if held else [0.0] * n
+    origins: list[str | None] = list(held.origins) if held else [None] * n
+    for axis, value in values.items():
+        new[axis] = new[axis] + value if add else value
+        origins[axis] = place
+    offset = Offset(name, tuple(new), tuple(origins), held.selected_at if held else place)
+    return _with_offset(state, kind, offset)
+
+
+def clear_preset(state: State, axes: frozenset[int]) -> State:
+    """#PRESET: the position preset of these axes is gone in the innermost level."""
+    held = state.coordinates.top.offset("pset")
+    if held is None:
+        return state
+    values = tuple(0.0 if i in axes else v for i, v in enumerate(held.values))
+    origins = tuple(None if i in axes else o for i, o in enumerate(held.origins))
+    offset = replace(held, values=values, origins=origins) if any(values) else None
+    return _with_offset(state, "pset", offset)
+
+
+def preset(state: State, values: Mapping[int, float], place: str) -> State:
+    """#PSET: the present position of these axes reads `values` from now on.
+
+    The old preset is replaced, not accumulated: it already counts in the present value.
+    """
+    held = state.coordinates.top.offset("pset")
+    shown = state.position.program
+    new = {
+        axis: (held.values[axis] if held else 0.0) + float(shown[axis]) - value
+        for axis, value in values.items()
+    }
+    return set_offsets(state, "pset", "#PSET", new, place)
+
+
+def select_tool(state: State, index: int, record: Tool, place: str) -> State:
+    """The tool data record `index` (D word); 0 is no tool."""
+    return with_tool(state, replace(state.tool, record_index=index, record=record, selected_at=place))
+
+
+def with_tool(state: State, tool: SelectedTool) -> State:
+    """The state in which `tool` acts, by the plane and settings that are valid now."""
+    record = tool.record
+    n = len(state.axes)
+    active = ActiveTool(
+        length=record.length,
+        axis_offsets=tuple(record.axis_offsets.get(i, 0.0) for i in range(n)),
+        direction=_tool_direction(state, record),
+        fixed=record.fixed,
+        name=f"tool D{tool.record_index}" if tool.record_index else "tool",
+        origin=", ".join(dict.fromkeys(p for p in (record.origin, tool.selected_at) if p)) or None,
+    )
+    coordinates = replace(state.coordinates, tool=active)
+    state = replace(state, tool=tool)
+    if coordinates.tool == state.coordinates.tool:
+        return state
+    simple = coordinates.kinematics is None and not (record.fixed or state.coordinates.tool.fixed)
+    return state.with_coordinates(coordinates, keep="level" if simple else "axes")
+
+
+def _tool_direction(state: State, record: Tool) -> tuple[float, float, float]:
+    """Unit vector mount -> tip: P-TOOL-00146, else against the third axis of the plane."""
+    if record.orientation is not None:
+        vector = np.array(record.orientation, dtype=float)
+        return tuple(vector / np.linalg.norm(vector))
+    direction = [0.0, 0.0, 0.0]
+    direction[state.main_axes[2]] = -1.0
+    return direction[0], direction[1], direction[2]
+
+
+def _offset_from_record(state: State, name: str, record: OffsetRecord, place: str) -> Offset:
+    indices = range(len(state.axes))
+    origins = tuple(record.origins.get(i) if record.effective(i) else None for i in indices)
+    return Offset(name, tuple(record.effective(i) for i in indices), origins, place)
+
+
+def _with_offset(state: State, kind: str, offset: Offset | None) -> State:
+    top: Level = state.coordinates.top.with_offset(kind, offset)
+    levels = (*state.coordinates.levels[:-1], top)
+    return state.with_coordinates(replace(state.coordinates, levels=levels), keep="level")

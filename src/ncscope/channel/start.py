@@ -1,0 +1,32 @@
+"""The state at program start (offsets sheet, section 4)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ncscope.channel import offsets
+from ncscope.channel.state import Kinematics, Position, State
+from ncscope.coordinates import Coordinates
+from ncscope.machine import Machine, OffsetRecord
+
+
+def start_state(machine: Machine, clamp_index: int | None = None) -> State:
+    """The state at program start: all axes at 0, default zero offset, clamp offset if chosen.
+
+    Raises KeyError when the machine has no clamp position with this index.
+    """
+    n = len(machine.axes)
+    zeros = np.zeros(n)
+    state = State(
+        axes=machine.axes,
+        coordinates=Coordinates(n),
+        position=Position(zeros, zeros),
+        kinematics=Kinematics(
+            machine.kinematic_parameters, machine.settings.default_kinematic_id
+        ),
+        zero_offsets=machine.zero_offsets,
+    )
+    if clamp_index is not None:
+        record: OffsetRecord = machine.clamp_positions[clamp_index]
+        state = offsets.select_clamp(state, clamp_index, record)
+    return offsets.select_zero(state, machine.zero_offsets.default_index, "program start")

@@ -1,0 +1,130 @@
+"""What one block leaves for the next: frozen, sharing what did not change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from ncscope.coordinates import Coordinates
+from ncscope.frames import Array
+from ncscope.kinematics.parameters import KinematicParameters
+from ncscope.machine import Axis, Tool, ZeroOffsets
+
+INCH = 25.4
+"""Millimetres of an inch (G70)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Modal:
+    """The modal G functions that change what a word means.
+
+    motion: `G00` or `G01` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
+    feed: mm or degrees per minute. The start values are the built-in ones of P-CHAN-00063.
+    """
+
+    motion: str = "G00"
+    plane: int = 17
+    absolute: bool = True
+    inch: bool = False
+    feed: float | None = None
+    feed_warned: bool = False
+
+    @property
+    def length_factor(self) -> float:
+        """Millimetres of one programmed unit of a linear axis."""
+        return INCH if self.inch else 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """Where the channel stands: axis positions, and the programmed values that lead there."""
+
+    axes: Array
+    program: Array
+
+
+@dataclass(frozen=True, slots=True)
+class SystemDefinition:
+    """A stored `#CS DEF`: shift mm and angles degrees, relative to the level it is used on."""
+
+    id: int
+    values: tuple[float, ...]
+    origin: str
+    temporary: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SelectedTool:
+    """The tool that acts: T and D words, and the record with what the program wrote into it."""
+
+    place: int = 0
+    record_index: int = 0
+    record: Tool = field(default_factory=Tool)
+    selected_at: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Kinematics:
+    """The kinematic data sets with what the program wrote into them, and the preselected id."""
+
+    parameters: Mapping[int, KinematicParameters]
+    selected: int
+
+
+@dataclass(frozen=True, slots=True)
+class Stored:
+    """One user variable: a number, a text, or an array with its dimensions."""
+
+    value: float | str | tuple[float | str, ...]
+    dimensions: tuple[int, ...] = ()
+    type: str = "REAL64"
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Everything that a block may read or change.
+
+    axes: the channel configuration. variables: `P5`, `V.P.NAME` -> value. definitions: stored
+    coordinate systems by id, in the order of their definition. parked: positions of axes that
+    left the channel, by logical number. message_file: where #MSG SAVE writes.
+    """
+
+    axes: tuple[Axis, ...]
+    coordinates: Coordinates
+    position: Position
+    kinematics: Kinematics
+    zero_offsets: ZeroOffsets
+    modal: Modal = Modal()
+    tool: SelectedTool = field(default_factory=SelectedTool)
+    zero_index: int = 0
+    clamp_index: int = 0
+    variables: Mapping[str, Stored] = field(default_factory=dict)
+    definitions: Mapping[int, SystemDefinition] = field(default_factory=dict)
+    macros: Mapping[str, str] = field(default_factory=dict)
+    parked: Mapping[int, float] = field(default_factory=dict)
+    message_file: str = "message.txt"
+    block: int | None = None
+
+    @property
+    def axis_names(self) -> tuple[str, ...]:
+        return tuple(axis.name for axis in self.axes)
+
+    @property
+    def main_axes(self) -> tuple[int, int, int]:
+        """Channel indices of the first, second and third axis of the plane."""
+        return {17: (0, 1, 2), 18: (2, 0, 1), 19: (1, 2, 0)}[self.modal.plane]
+
+    def with_coordinates(self, coordinates: Coordinates, *, keep: str = "axes") -> State:
+        """The state under other coordinates; nothing moves.
+
+        keep: `level` where only offsets of the innermost level changed (exact, and no inverse
+        transformation is needed), else `axes`.
+        """
+        if keep == "level":
+            level = self.coordinates.level_from_program(self.position.program)
+            program = coordinates.program_from_level(level)
+        else:
+            program = coordinates.to_program(self.position.axes)
+        position = Position(self.position.axes, program)
+        return replace(self, coordinates=coordinates, position=position)
+

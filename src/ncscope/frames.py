@@ -1,0 +1,95 @@
+"""Rigid transforms that know the two coordinate systems they link.
+
+A `Frame` named `a_from_b` turns coordinates written in system b into coordinates of system a.
+Neighbours must match: `a_from_b @ b_from_c` is `a_from_c`. Lengths mm, angles degrees,
+positive rotations are right-handed.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+ROTATION_SEQUENCES = (
+    "XYZ", "XYX", "XZY", "XZX", "YXZ", "YXY", "YZX", "YZY", "ZXY", "ZXZ", "ZYX", "ZYZ",
+)  # fmt: skip
+"""The rotation sequences that a channel list may configure (P-CHAN-00394)."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Coordinates of `target` from coordinates of `origin`: target = rotation @ origin + shift.
+
+    rotation: (3, 3) orthonormal, right-handed. shift: (3,) mm, in the axes of `target`.
+    """
+
+    target: str
+    origin: str
+    rotation: Array = field(default_factory=lambda: np.eye(3))
+    shift: Array = field(default_factory=lambda: np.zeros(3))
+
+    def __matmul__(self, other: Frame) -> Frame:
+        """Raises ValueError when the inner names differ."""
+        if self.origin != other.target:
+            raise ValueError(
+                f"{self.target}_from_{self.origin} cannot be followed by "
+                f"{other.target}_from_{other.origin}: {self.origin} is not {other.target}"
+            )
+        return Frame(
+            self.target,
+            other.origin,
+            self.rotation @ other.rotation,
+            self.rotation @ other.shift + self.shift,
+        )
+
+    @property
+    def inverse(self) -> Frame:
+        back = self.rotation.T
+        return Frame(self.origin, self.target, back, -back @ self.shift)
+
+    def apply(self, points: ArrayLike) -> Array:
+        """Points (..., 3) mm of `origin` as points (..., 3) mm of `target`."""
+        return np.asarray(points, dtype=float) @ self.rotation.T + self.shift
+
+
+def sin_cos(angle: float) -> tuple[float, float]:
+    """Sine and cosine of degrees, exact at multiples of 90."""
+    quarter, rest = divmod(angle, 90.0)
+    if rest == 0.0:
+        return ((0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0))[int(quarter) % 4]
+    angle_rad = math.radians(angle)
+    return math.sin(angle_rad), math.cos(angle_rad)
+
+
+def axis_rotation(axis: str, angle: float) -> Array:
+    """Right-handed rotation (3, 3) about X, Y or Z; degrees."""
+    s, c = sin_cos(angle)
+    i = "XYZ".index(axis)
+    j, k = (i + 1) % 3, (i + 2) % 3
+    matrix = np.eye(3)
+    matrix[j, j] = matrix[k, k] = c
+    matrix[k, j], matrix[j, k] = s, -s
+    return matrix
+
+
+def sequence_rotation(angles: ArrayLike, sequence: str = "ZYX", fixed: bool = False) -> Array:
+    """Rotation (3, 3) of a coordinate system given by three angles in degrees.
+
+    angles: f1, f2, f3. With three different letters f1 belongs to X, f2 to Y, f3 to Z; with a
+    repeated letter f3 turns first, f2 second, f1 third. fixed: each turn is about the axes of the
+    starting system instead of the axes already turned.
+    Source: #CS definition, P-CHAN-00393, P-CHAN-00394.
+    """
+    f = np.asarray(angles, dtype=float)
+    by_axis = len(set(sequence)) == 3
+    turns = [
+        axis_rotation(letter, f["XYZ".index(letter)] if by_axis else f[2 - i])
+        for i, letter in enumerate(sequence)
+    ]
+    first, second, third = turns
+    return third @ second @ first if fixed else first @ second @ third

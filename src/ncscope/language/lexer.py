@@ -1,0 +1,142 @@
+"""Tokens of one logical line, and the line with its comments blanked out.
+
+Enters a text and the offset where a line begins. Leaves tokens that cover every character of that
+line, and `Line`, the code that the parser reads. Knows nothing of words or commands.
+Source: reference 1.1 (comments) and 1.2 (continuation).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+BLANKS = " \t\0\r"
+LONGEST_LINE = 4000
+
+_PIECE = re.compile(
+    r"""(?P<blank>[ \t\0\r]+)
+      | (?P<end>\n)
+      | (?P<remark>[;(])
+      | (?P<string>"(?:\\"|[^"\n])*")
+      | (?P<number>[0-9]+(?:\.[0-9]*)?|\.[0-9]+)
+      | (?P<word>[^\W0-9]\w*)
+      | (?P<operator>\*\*|&&|\|\||[=!<>]=|[-+*/]=|[-+*/&|^=<>\[\],.:@\#$%])
+      | (?P<join>\\)
+      | (?P<open_string>"[^\n]*)
+      | (?P<stray>.)""",
+    re.VERBOSE,
+)
+_BRACKET_OR_END = re.compile(r"[()\n]")
+_AFTER_JOIN = re.compile(r"\\[ \t\0\r]*(?=[;(\n]|\Z)")
+_NEEDS_TOKENS = re.compile(r"[\\(;\"]")
+
+
+class Token(NamedTuple):
+    """`kind` is blank, comment, join, end, string, number, word, operator or stray."""
+
+    kind: str
+    text: str
+    start: int
+
+
+class Line(NamedTuple):
+    """One logical line: `code` has a blank for every character of a comment or a join.
+
+    `code[i]` stands at offset `start + i` of the source; the next line begins at `stop`.
+    """
+
+    code: str
+    start: int
+    stop: int
+    too_long: bool
+
+
+def tokens(text: str, start: int = 0) -> Iterator[Token]:
+    """The tokens of the logical line at `start`; their texts joined are the source text.
+
+    A backslash before the end of the line, or before a comment that runs to it, joins the next
+    line. Inside an open bracket, empty and commented lines after a join belong to the line too.
+    """
+    at, depth, joined, written = start, 0, False, True
+    while at < len(text):
+        token = _token(text, at, joined)
+        yield token
+        at = token.start + len(token.text)
+        depth += (token.text == "[") - (token.text == "]")
+        if token.kind == "join":
+            joined, written = True, False
+        elif token.kind == "end":
+            if written or depth <= 0 or not joined:
+                return
+        elif token.kind not in ("blank", "comment"):
+            written = True
+
+
+def read_line(text: str, start: int) -> Line:
+    """The logical line at `start`. Most lines have no comment and are taken as they are."""
+    end = text.find("\n", start)
+    stop = len(text) if end < 0 else end + 1
+    code = text[start : stop if end < 0 else end]
+    if _NEEDS_TOKENS.search(code) is None:
+        return Line(code, start, stop, len(code) > LONGEST_LINE)
+    pieces = []
+    length = longest = 0
+    for token in tokens(text, start):
+        hidden = token.kind in ("comment", "join", "end")
+        pieces.append(" " * len(token.text) if hidden else token.text)
+        length = 0 if "\n" in token.text else length + len(token.text)
+        longest = max(longest, length)
+    code = "".join(pieces)
+    return Line(code, start, start + len(code), longest > LONGEST_LINE)
+
+
+def _token(text: str, at: int, joined: bool) -> Token:
+    match = _PIECE.match(text, at)
+    assert match is not None and match.lastgroup is not None
+    kind = match.lastgroup
+    if kind == "remark":
+        return _comment(text, at, joined)
+    if kind == "join":
+        return _join(text, at)
+    if kind == "open_string":
+        kind = "stray"
+    return Token(kind, match.group(), at)
+
+
+def _comment(text: str, at: int, joined: bool) -> Token:
+    end = _line_end(text, at) if text[at] == ";" else _closing(text, at)
+    comment = text[at:end]
+    if joined and text[at] == ";" and comment.rstrip(BLANKS).endswith("\\"):
+        return Token("join", text[at : end + 1], at)
+    return Token("comment", comment, at)
+
+
+def _closing(text: str, at: int) -> int:
+    """The offset after the bracket that closes the comment, or the end of the line."""
+    depth = 0
+    for match in _BRACKET_OR_END.finditer(text, at):
+        if match.group() == "\n":
+            return match.start()
+        depth += 1 if match.group() == "(" else -1
+        if depth == 0:
+            return match.end()
+    return len(text)
+
+
+def _join(text: str, at: int) -> Token:
+    """A backslash joins only if nothing but comments follows in its line."""
+    match = _AFTER_JOIN.match(text, at)
+    end = match.end() if match else -1
+    while 0 <= end < len(text) and text[end] in ";(":
+        end = _line_end(text, end) if text[end] == ";" else _closing(text, end)
+        while end < len(text) and text[end] in BLANKS:
+            end += 1
+    if end < 0 or (end < len(text) and text[end] != "\n"):
+        return Token("stray", text[at], at)
+    return Token("join", text[at : end + 1], at)
+
+
+def _line_end(text: str, at: int) -> int:
+    end = text.find("\n", at)
+    return len(text) if end < 0 else end

@@ -1,0 +1,309 @@
+"""NC text to program tree.
+
+Enters a source. Leaves blocks and diagnostics, never an exception: a block that cannot be read has
+`ok` False and says why. Knows no machine; axis names are not checked here.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
+from ncscope.language.commands import lookup
+from ncscope.language.controls import control
+from ncscope.language.cursor import Cursor, Mistake
+from ncscope.language.hashes import declaration, hash_command, unknown_command
+from ncscope.language.lexer import BLANKS, LONGEST_LINE, Line, read_line
+from ncscope.language.terms import expression
+from ncscope.language.tree import (
+    Block,
+    Control,
+    Declaration,
+    Expression,
+    HashCommand,
+    Number,
+    Word,
+)
+from ncscope.language.words import word
+
+Diagnostics = tuple[Diagnostic, ...]
+
+_SKIP = re.compile(r"/[ \t\0\r]*(10|[1-9])?(?![0-9])")
+_LABEL = re.compile(r"\[[ \t\0\r]*([^\s\0\[\]]+)[ \t\0\r]*\]")
+_LOCAL = re.compile(r"[Ll][ \t\0\r]+(.*)", re.DOTALL)
+_COMMENT_END = re.compile(
+    r"[ \t\0\r]*(?:N[ \t]*[0-9]+)?(?:[ \t\0\r]|\([^()\n]*\))*#[ \t\0\r]*COMMENT[ \t\0\r]+END\b",
+    re.IGNORECASE,
+)
+_BYTE_ORDER_MARK = "\ufeff"
+
+
+@dataclass(frozen=True)
+class Program:
+    """All blocks of a source. `subprograms` has the block indices of every local subprogram."""
+
+    source: Source
+    blocks: tuple[Block, ...]
+    diagnostics: Diagnostics
+    subprograms: Mapping[str, range]
+
+
+@dataclass
+class _Draft:
+    """What has been read of a block."""
+
+    number: Expression | None = None
+    label: str | None = None
+    skip: int | None = None
+    words: list[Word] = field(default_factory=list)
+    commands: list[HashCommand] = field(default_factory=list)
+    control: Control | None = None
+    declarations: list[Declaration] = field(default_factory=list)
+    header: str | None = None
+
+
+def parse_program(source: Source) -> Program:
+    """The whole program. Local subprograms run from behind their header to the next header."""
+    blocks: list[Block] = []
+    found: list[Diagnostic] = []
+    for block, diagnostics in iterate_blocks(source):
+        blocks.append(block)
+        found.extend(diagnostics)
+    return Program(source, tuple(blocks), tuple(found), _subprograms(blocks))
+
+
+def iterate_blocks(source: Source) -> Iterator[tuple[Block, Diagnostics]]:
+    """The blocks of a source one by one, each with its diagnostics.
+
+    Block comments, the order of headers and #VAR areas are followed from block to block.
+    """
+    at, in_main, in_sub, declaring = 0, False, False, False
+    pending: Diagnostics = ()
+    if source.text.startswith(_BYTE_ORDER_MARK):
+        pending, at = (_byte_order_mark(source),), 1
+    while at < len(source.text):
+        block, found, at = parse_block(source, at, declarations=declaring)
+        if block is None:
+            continue
+        block, found = _with(block, (*pending, *found))
+        pending = ()
+        if block.header is not None:
+            in_sub = _is_local(block.header)
+            block, found = _checked_header(block, found, in_main)
+        in_main = in_main or not in_sub
+        name = block.commands[0].name if block.commands else ""
+        declaring = name == "VAR" or (declaring and name != "ENDVAR")
+        if name == "COMMENT BEGIN":
+            at, more = _behind_comment(source, at, block.span)
+            block, found = _with(block, (*found, *more))
+            yield block, found
+            if at < len(source.text):
+                ending, found, at = parse_block(source, at)
+                if ending is not None:
+                    yield ending, found
+            continue
+        if name == "COMMENT END":
+            message = "#COMMENT END stands without #COMMENT BEGIN."
+            block, found = _with(block, (*found, diagnostic("20567", block.span, message)))
+        yield block, found
+    if pending:
+        yield _empty(source), pending
+
+
+def parse_block(
+    source: Source, start: int, *, declarations: bool = False
+) -> tuple[Block | None, Diagnostics, int]:
+    """The block of the logical line at `start`, its diagnostics, and where the next line begins.
+
+    None for a line with nothing but blanks and comments. `declarations`: the line stands between
+    #VAR and #ENDVAR.
+    """
+    line = read_line(source.text, start)
+    cursor = Cursor(source, line.code, line.start)
+    if not cursor.skip():
+        return None, (), line.stop
+    span = cursor.span(cursor.at, len(line.code.rstrip(BLANKS)))
+    draft, found = _Draft(), _too_long(line, span)
+    if not found:
+        found = _read(cursor, draft, declarations) + _exclusive(draft)
+    return _block(draft, span, not any(d.is_error for d in found)), found, line.stop
+
+
+def _read(cursor: Cursor, draft: _Draft, declarations: bool) -> Diagnostics:
+    """line = header | [ skip ] , [ blockno ] , [ label ] , content ;"""
+    try:
+        if cursor.char == "%":
+            draft.header = _header(cursor)
+            return ()
+        _block_start(cursor, draft)
+        while cursor.skip():
+            _content(cursor, draft, declarations)
+    except Mistake as mistake:
+        return (mistake.item,)
+    return ()
+
+
+def _header(cursor: Cursor) -> str:
+    """header = "%" , [ "L" , sep ] , name ;"""
+    name = " ".join(cursor.code[cursor.at + 1 :].strip(BLANKS + "\n").split("\n"))
+    local = _LOCAL.fullmatch(name)
+    return f"L {local.group(1).strip(BLANKS)}" if local else name
+
+
+def _block_start(cursor: Cursor, draft: _Draft) -> None:
+    """start = [ "/" , [ level ] ] , [ "N" , expr , [ ":" ] ] , [ "[" , name , "]" ] ;"""
+    skip = cursor.match(_SKIP)
+    if skip is not None:
+        draft.skip = int(skip.group(1) or 1)
+        cursor.skip()
+    if cursor.char in ("N", "n"):
+        _block_number(cursor, draft)
+        cursor.skip()
+    label = cursor.match(_LABEL)
+    if label is not None:
+        draft.label = label.group(1).upper()
+
+
+def _block_number(cursor: Cursor, draft: _Draft) -> None:
+    """blockno = "N" , expr , [ ":" ] ;  with the colon, the number is a label too"""
+    start = cursor.at
+    if draft.number is not None:
+        raise cursor.mistake("20105", "The block has two block numbers.")
+    cursor.at += 1
+    draft.number = expression(cursor)
+    if not cursor.take(":"):
+        return
+    number = draft.number
+    written = cursor.code[start : cursor.at - 1].upper()
+    draft.label = f"N{round(number.value)}" if isinstance(number, Number) else written
+
+
+def _content(cursor: Cursor, draft: _Draft, declarations: bool) -> None:
+    """content = control | hashcmd | declaration | word ;"""
+    match cursor.char:
+        case "#":
+            _hash(cursor, draft)
+        case "$":
+            _control(cursor, draft)
+        case "N" | "n":
+            _block_number(cursor, draft)
+        case "%":
+            raise cursor.mistake("20193", "A program header must begin its line.")
+        case _ if declarations:
+            draft.declarations.append(declaration(cursor))
+            cursor.take(",")
+        case _:
+            draft.words.append(word(cursor))
+
+
+def _hash(cursor: Cursor, draft: _Draft) -> None:
+    start = cursor.at
+    try:
+        draft.commands.append(hash_command(cursor))
+    except Mistake as mistake:
+        if mistake.item.id == "20509":
+            draft.commands.append(unknown_command(cursor, start))
+        raise
+
+
+def _control(cursor: Cursor, draft: _Draft) -> None:
+    if draft.control is not None:
+        raise cursor.mistake("20206", "Two control statements stand in one block.")
+    draft.control, assigned = control(cursor)
+    if assigned is not None:
+        draft.words.append(assigned)
+
+
+def _exclusive(draft: _Draft) -> Diagnostics:
+    """Control statements, and most # commands, share their block with nothing else."""
+    crowd = len(draft.words) + len(draft.commands) + len(draft.declarations)
+    statement = draft.control
+    if statement is not None:
+        allowed = crowd == 0 or statement.keyword == "GOTO"
+        allowed = allowed or (statement.keyword == "SWITCH" and crowd == 1)
+        if not allowed:
+            message = f"${statement.keyword} must stand alone in its block."
+            return (diagnostic("20206", statement.span, message),)
+    for command in draft.commands:
+        row = lookup(command.name)
+        if crowd > 1 and command.known and row is not None and row.stands_alone:
+            id = "20566" if command.name.startswith("COMMENT") else "20207"
+            message = f"#{command.name} must stand alone in its block."
+            return (diagnostic(id, command.span, message, "put the other words on their own line"),)
+    return ()
+
+
+def _block(draft: _Draft, span: Span, ok: bool) -> Block:
+    return Block(
+        draft.number,
+        draft.label,
+        draft.skip,
+        tuple(draft.words),
+        tuple(draft.commands),
+        draft.control,
+        tuple(draft.declarations),
+        draft.header,
+        ok,
+        span,
+    )
+
+
+def _empty(source: Source) -> Block:
+    return _block(_Draft(), Span(source, 0, 0), False)
+
+
+def _with(block: Block, found: Diagnostics) -> tuple[Block, Diagnostics]:
+    """The block, which is not ok if an error was found."""
+    ok = not any(d.is_error for d in found)
+    return (block if ok == block.ok else replace(block, ok=ok)), found
+
+
+def _too_long(line: Line, span: Span) -> Diagnostics:
+    if not line.too_long:
+        return ()
+    return (diagnostic("N1004", span, f"The block is longer than {LONGEST_LINE} characters."),)
+
+
+def _byte_order_mark(source: Source) -> Diagnostic:
+    hint = "save the file as plain ASCII, without a byte order mark"
+    span = Span(source, 0, 1)
+    return diagnostic("21798", span, "The file begins with a byte order mark.", hint)
+
+
+def _is_local(header: str) -> bool:
+    return header.startswith("L ")
+
+
+def _checked_header(block: Block, found: Diagnostics, in_main: bool) -> tuple[Block, Diagnostics]:
+    """A second main program is an error; local subprograms may stand before and behind it."""
+    assert block.header is not None
+    if _is_local(block.header) or not in_main:
+        return block, found
+    message = "A program header stands inside the main program."
+    hint = "local subprograms are written %L name"
+    return _with(block, (*found, diagnostic("20193", block.span, message, hint)))
+
+
+def _behind_comment(source: Source, at: int, begin: Span) -> tuple[int, Diagnostics]:
+    """The offset of the line with #COMMENT END, or the end of the file and what is wrong."""
+    text = source.text
+    while at < len(text):
+        if _COMMENT_END.match(text, at):
+            return at, ()
+        end = text.find("\n", at)
+        at = len(text) if end < 0 else end + 1
+    message = "The file ends inside a block comment."
+    return at, (diagnostic("20568", begin, message, "write #COMMENT END on a line of its own"),)
+
+
+def _subprograms(blocks: list[Block]) -> dict[str, range]:
+    """Of two subprograms with one name the first counts."""
+    result: dict[str, range] = {}
+    headers = [i for i, block in enumerate(blocks) if block.header is not None]
+    for at, stop in zip(headers, [*headers[1:], len(blocks)], strict=False):
+        header = blocks[at].header or ""
+        if _is_local(header):
+            result.setdefault(header[2:], range(at + 1, stop))
+    return result

@@ -1,0 +1,344 @@
+"""The words of a block.
+
+Enters a cursor before a word. Leaves the word. Which words make sense together is the channel's.
+Source: reference sections 2 and 3.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from ncscope.language.cursor import Cursor
+from ncscope.language.groups import group, groups
+from ncscope.language.terms import (
+    close,
+    expression,
+    starts_target,
+    starts_value,
+    string,
+    target,
+    value,
+)
+from ncscope.language.tree import (
+    AddressWord,
+    Assignment,
+    AxisCommand,
+    AxisWord,
+    Call,
+    Expression,
+    GWord,
+    Macro,
+    MacroDefinition,
+    MWord,
+    Name,
+    Number,
+    SpindleWord,
+    Unary,
+    Word,
+)
+
+AXIS_LETTERS = frozenset("ABCQUVWXYZabcquvwxyz")
+_ADDRESSES = frozenset("DEFHIJKRTdefhijkrt")
+AXIS_COMMANDS = frozenset(
+    (
+        "INDP_SYN",
+        "INDP_ASYN",
+        "OSC",
+        "COMP",
+        "DIST_CTRL",
+        "OVERRIDE",
+        "DYNAMIC",
+        "LIFT",
+        "LIFT_START",
+        "LIFT_END",
+        "SYNC",
+        "POLY",
+        "SET_POSITION",
+    )
+)
+
+_SIMPLE = re.compile(
+    r"([A-FHIJKQRT-Za-fhijkqrt-zGg])([-+]?)([0-9]{1,15}(?:\.[0-9]{0,15})?|\.[0-9]{1,15})"
+    r"(?=[ \t\0\r]*\Z|[ \t\0\r]+(?!(?:MOD|XOR)(?!\w))[A-Za-z])",
+    re.IGNORECASE,
+)
+_LONG_NAME = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*=(?!=)", re.ASCII)
+_AXIS_COMMAND = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*\[[ \t\0\r]*([A-Za-z]\w*)", re.ASCII)
+_ASSIGN = re.compile(r"[ \t\0\r]*([-+*/]?=)(?!=)")
+_EQUALS = re.compile(r"[ \t\0\r]*=(?!=)")
+_SPINDLE = re.compile(r"[Ss](?:\.[A-Za-z_]\w*|\w+(?=[ \t\0\r]*=(?!=))|[0-9]+(?=[ \t\0\r]*\[))")
+_SPINDLE_BRACKET = re.compile(r"[Ss][ \t\0\r]*\[")
+_CALL = re.compile(r"(LL|L)(?=[ \t\0\r\"]|\Z)", re.IGNORECASE)
+_SPECIAL_CALL = re.compile(r"(CYCLE|SEQUENCE)(?=[ \t\0\r]*\[)", re.IGNORECASE)
+_FILE_NAME = re.compile(r'[^\s\0\[\]"#;,()]+')
+_RUN = re.compile(r"[^\W0-9]\w*")
+
+
+def word(cursor: Cursor) -> Word:
+    """word = gword | mword | axisword | addrword | assign | call | macro ;"""
+    simple = cursor.match(_SIMPLE)
+    if simple is not None:
+        return _simple(cursor, simple)
+    letter = cursor.char
+    if letter == '"':
+        return _macro(cursor)
+    if starts_target(cursor):
+        return _assignment(cursor)
+    if letter in AXIS_LETTERS:
+        return _axis(cursor)
+    handler = _BY_LETTER.get(letter.upper())
+    if handler is not None:
+        return handler(cursor)
+    raise _unknown(cursor)
+
+
+def _simple(cursor: Cursor, found: re.Match[str]) -> Word:
+    """A letter with a number behind it, which most words are."""
+    letter, sign, digits = found.groups()
+    span = cursor.span(found.start())
+    number: Expression = Number(float(digits), cursor.span(found.start(3)))
+    if sign:
+        number = Unary(sign, number, cursor.span(found.start(2)))
+    if letter in AXIS_LETTERS:
+        return AxisWord(letter, number, sign, span)
+    if letter in "Gg":
+        return GWord(number, None, None, span)
+    return AddressWord(letter.upper(), number, span)
+
+
+def _axis(cursor: Cursor) -> Word:
+    """axisword = name , "=" , expr | letter , value | name , "[" , keyword , .. , "]" ;
+
+    The longest name counts: X50P1=7 is the axis X50P1.
+    """
+    start = cursor.at
+    named = cursor.match(_LONG_NAME)
+    if named is not None:
+        name = named.group(1)
+        return _axis_word(cursor, name, start)
+    command = cursor.looks_at(_AXIS_COMMAND)
+    if command is not None and _is_axis_command(command.group(2).upper()):
+        return _axis_command(cursor, command)
+    _need_value(cursor)
+    return _axis_word(cursor, cursor.code[start], start)
+
+
+def _axis_word(cursor: Cursor, name: str, start: int) -> AxisWord:
+    first = cursor.skip()
+    sign = first if len(name) == 1 and first in ("+", "-") else ""
+    content = _value_after(cursor, start)
+    return AxisWord(name, content, sign, cursor.span(start))
+
+
+def _is_axis_command(keyword: str) -> bool:
+    return keyword in AXIS_COMMANDS or keyword.startswith("MC_")
+
+
+def _axis_command(cursor: Cursor, found: re.Match[str]) -> AxisCommand:
+    start = cursor.at
+    cursor.at += len(found.group(1))
+    cursor.skip()
+    _skip_brackets(cursor)
+    return AxisCommand(found.group(1), found.group(2).upper(), cursor.span(start))
+
+
+def _skip_brackets(cursor: Cursor) -> None:
+    """Brackets whose content nobody reads yet."""
+    opening, depth = cursor.at, 0
+    for at in range(cursor.at, len(cursor.code)):
+        depth += (cursor.code[at] == "[") - (cursor.code[at] == "]")
+        if depth == 0:
+            cursor.at = at + 1
+            return
+    cursor.at = len(cursor.code)
+    close(cursor, opening, "20198")
+
+
+def _need_value(cursor: Cursor) -> None:
+    """A value must follow the letter; the cursor is then behind the letter."""
+    start = cursor.at
+    cursor.at += 1
+    cursor.skip()
+    if starts_value(cursor):
+        return
+    run = _RUN.match(cursor.code, start)
+    if run is not None and run.end() > start + 1:
+        cursor.at = start
+        raise _unknown(cursor)
+    cursor.at = start + 1
+    raise _no_value(cursor, start)
+
+
+def _value_after(cursor: Cursor, start: int) -> Expression:
+    if not cursor.skip() or not starts_value(cursor):
+        raise _no_value(cursor, start)
+    return value(cursor)
+
+
+def _no_value(cursor: Cursor, start: int) -> Exception:
+    end = max(cursor.written_end(), start + 1)
+    name = cursor.code[start:end]
+    hint = f"write a number or an expression behind {name.rstrip(' =')}"
+    message = f"A value is missing after {name!r}."
+    return cursor.mistake("N1002", message, hint, cursor.span(start, end))
+
+
+def _unknown(cursor: Cursor) -> Exception:
+    run = cursor.looks_at(_RUN)
+    if run is not None and run.group()[0].isascii():
+        message = f"{run.group()!r} is neither an NC command nor an axis."
+        return cursor.mistake("20200", message, span=cursor.span(cursor.at, run.end()))
+    if cursor.char.isprintable() and cursor.char.isascii():
+        return cursor.mistake(
+            "20200", f"An NC command or an axis was expected, not {cursor.char!r}."
+        )
+    return cursor.mistake("N1001", f"The character {cursor.char!r} does not belong here.")
+
+
+def _g_word(cursor: Cursor) -> GWord:
+    """gword = "G" , expr , [ "=" , expr ] , [ "[" , [ expr ] , { "," , [ expr ] } , "]" ] ;"""
+    start = cursor.at
+    _need_value(cursor)
+    number = value(cursor)
+    content = value(cursor) if cursor.match(_EQUALS) else None
+    after, arguments = cursor.at, None
+    if cursor.skip() == "[":
+        arguments = _places(cursor)
+    else:
+        cursor.at = after
+    return GWord(number, content, arguments, cursor.span(start))
+
+
+def _places(cursor: Cursor) -> tuple[Expression | None, ...]:
+    opening = cursor.at
+    cursor.at += 1
+    places = [_place(cursor)]
+    while cursor.take(","):
+        places.append(_place(cursor))
+    close(cursor, opening, "20198")
+    return tuple(places)
+
+
+def _place(cursor: Cursor) -> Expression | None:
+    return None if cursor.skip() in (",", "]") else expression(cursor)
+
+
+def _m_word(cursor: Cursor) -> MWord:
+    """mword = "M" , expr , { group } ;"""
+    start = cursor.at
+    _need_value(cursor)
+    number = value(cursor)
+    arguments = groups(cursor)
+    return MWord(number, arguments, cursor.span(start, cursor.written_end()))
+
+
+def _address(cursor: Cursor) -> AddressWord:
+    """addrword = letter , [ "=" ] , value ;"""
+    start = cursor.at
+    letter = cursor.char.upper()
+    cursor.at += 1
+    if cursor.match(_EQUALS) is None:
+        cursor.at = start
+        _need_value(cursor)
+    return AddressWord(letter, _value_after(cursor, start), cursor.span(start))
+
+
+def _spindle(cursor: Cursor) -> Word:
+    """spindle = "S" , [ digits | "." , name ] , ( "=" , value | brackets ) | "S" , value ;"""
+    start = cursor.at
+    named = cursor.match(_SPINDLE)
+    if named is None:
+        return _spindle_bracket(cursor) or _address(cursor)
+    if cursor.match(_EQUALS):
+        _value_after(cursor, start)
+    elif cursor.skip() == "[":
+        _skip_brackets(cursor)
+    else:
+        raise _no_value(cursor, start)
+    return SpindleWord(named.group(), cursor.span(start))
+
+
+def _spindle_bracket(cursor: Cursor) -> SpindleWord | None:
+    """`S[..]` that does not hold an expression is a command for the spindle."""
+    start = cursor.at
+    found = cursor.match(_SPINDLE_BRACKET)
+    if found is None:
+        return None
+    cursor.skip()
+    if starts_value(cursor):
+        cursor.at = start
+        return None
+    cursor.at = found.end() - 1
+    _skip_brackets(cursor)
+    return SpindleWord(cursor.code[start], cursor.span(start))
+
+
+def _assignment(cursor: Cursor) -> Assignment:
+    """assign = target , ( "=" | "+=" | "-=" | "*=" | "/=" ) , expr ;"""
+    start = cursor.at
+    left = target(cursor)
+    found = cursor.match(_ASSIGN)
+    if found is None:
+        name = cursor.code[start : cursor.at]
+        span = cursor.span(start)
+        hint = f"write {name} = and a value"
+        raise cursor.mistake("20194", f"{name} stands alone, without an assignment.", hint, span)
+    if cursor.skip() == "" or (not starts_value(cursor) and not cursor.word()):
+        raise _no_value(cursor, start)
+    return Assignment(left, found.group(1), expression(cursor), cursor.span(start))
+
+
+def _macro(cursor: Cursor) -> Macro | MacroDefinition:
+    """macro = string , [ "=" , string ] ;"""
+    start = cursor.at
+    name = string(cursor).value
+    if cursor.match(_EQUALS) is None:
+        return Macro(name, cursor.span(start))
+    if cursor.skip() != '"':
+        raise _no_value(cursor, start)
+    text = string(cursor).value
+    return MacroDefinition(name, text, cursor.span(start))
+
+
+def _call(cursor: Cursor) -> Call:
+    """call = ( "L" | "LL" ) , sep , ( name | string | variable | "CYCLE" group | .. ) ;"""
+    start = cursor.at
+    found = cursor.match(_CALL)
+    if found is None:
+        raise _unknown(cursor)
+    kind = found.group().upper()
+    cursor.skip()
+    special = cursor.match(_SPECIAL_CALL)
+    if special is not None:
+        return _special_call(cursor, f"{kind} {special.group().upper()}", start)
+    return Call(kind, _call_target(cursor, start), (), cursor.span(start))
+
+
+def _special_call(cursor: Cursor, kind: str, start: int) -> Call:
+    cursor.skip()
+    arguments = (group(cursor),)
+    named = [item.value for item in arguments[0].items if item.key == "NAME"]
+    return Call(kind, named[0] if named else None, arguments, cursor.span(start))
+
+
+def _call_target(cursor: Cursor, start: int) -> Expression:
+    begin = cursor.at
+    if cursor.char == '"':
+        name = string(cursor)
+        return Macro(name.value, name.span)
+    if cursor.char in ("V", "v") and starts_target(cursor):
+        return target(cursor)
+    found = cursor.match(_FILE_NAME)
+    if found is None:
+        raise _no_value(cursor, start)
+    return Name(found.group(), cursor.span(begin))
+
+
+_BY_LETTER: dict[str, Callable[[Cursor], Word]] = {
+    "G": _g_word,
+    "M": _m_word,
+    "S": _spindle,
+    "L": _call,
+    **{letter: _address for letter in _ADDRESSES if letter.isupper()},
+}

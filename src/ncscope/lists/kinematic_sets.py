@@ -1,0 +1,159 @@
+"""Kinematic data sets from the channel list.
+
+Three spellings reach one kind of record: `kinematik[id].x` (up to V2.11), `trafo[j].id` with
+`trafo[j].x` (from V3.00), and `kin_step[0].trafo[j].x`. Numbers stay in list units.
+Source: FCT-C27 3.2 and 3.5, P-CHAN-00262, -00263, -00285 to -00295, -00829.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from ncscope.diagnostics import Diagnostic, Span, diagnostic
+from ncscope.kinematics.parameters import KinematicParameters, field_index
+from ncscope.lists.values import Reading
+
+_SLOT = re.compile(
+    r"(?:kinematik\[(?P<id>\d+)\]|(?:kin_step\[(?P<step>\d+)\]\.)?trafo\[(?P<place>\d+)\])\.(?P<field>.+)"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """Where a list keeps a data set: `spelling` is the text before the field."""
+
+    spelling: str
+    step: int
+    fixed_id: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class KinematicSet:
+    """A data set as one slot of the list gives it; `id` 0 when the list names none."""
+
+    slot: Slot
+    parameters: KinematicParameters
+    first: Reading
+    id_reading: Reading | None = None
+
+    @property
+    def id(self) -> int:
+        return self.parameters.id
+
+
+def split_key(key: str) -> tuple[Slot, str] | None:
+    """The slot and the field of a kinematics key, None for other keys."""
+    match = _SLOT.fullmatch(key.lower())
+    if match is None:
+        return None
+    fixed = int(match["id"]) if match["id"] else None
+    spelling = key.lower()[: match.start("field") - 1]
+    return Slot(spelling, int(match["step"] or 0), fixed), match["field"]
+
+
+def is_number(reading: Reading) -> bool:
+    """Whether a reading writes one of the 70 numbers of a data set."""
+    split = split_key(reading.entry.key)
+    return split is not None and field_index(split[1]) is not None
+
+
+def read_sets(
+    readings: Iterable[Reading],
+) -> tuple[tuple[KinematicSet, ...], tuple[Diagnostic, ...]]:
+    """The data sets in the order in which their slots first appear, and overwritten numbers."""
+    sets: dict[Slot, KinematicSet] = {}
+    found: list[Diagnostic] = []
+    for reading in readings:
+        split = split_key(reading.entry.key)
+        if split is None or reading.value is None or split[0].step > 0:
+            continue
+        slot, field = split
+        current = sets.get(slot) or _empty(slot, reading)
+        index = field_index(field)
+        if index is None:
+            sets[slot] = _with_property(current, field, reading)
+        else:
+            found.extend(_overwritten(current, index, reading))
+            sets[slot] = _with_number(current, index, reading)
+    return tuple(sets.values()), tuple(found)
+
+
+def by_id(
+    sets: Iterable[KinematicSet],
+) -> tuple[Mapping[int, KinematicParameters], tuple[Diagnostic, ...]]:
+    """The data sets by kinematic id; of two with one id the later one counts."""
+    chosen: dict[int, KinematicSet] = {}
+    found: list[Diagnostic] = []
+    for item in sets:
+        if item.id == 0:
+            found.append(_without_id(item))
+            continue
+        earlier = chosen.get(item.id)
+        if earlier is not None:
+            found.append(_same_id(earlier, item))
+        chosen[item.id] = item
+    return {id: _typed(item.parameters) for id, item in sorted(chosen.items())}, tuple(found)
+
+
+def _empty(slot: Slot, first: Reading) -> KinematicSet:
+    return KinematicSet(slot, KinematicParameters(id=slot.fixed_id or 0, type=0), first)
+
+
+def _with_property(item: KinematicSet, field: str, reading: Reading) -> KinematicSet:
+    parameters, value = item.parameters, reading.value
+    if field == "id" and item.slot.fixed_id is None:
+        parameters = replace(parameters, id=int(value or 0))
+        return replace(item, parameters=parameters, id_reading=reading)
+    if field == "type":
+        return replace(item, parameters=replace(parameters, type=int(value or 0)))
+    if field == "name":
+        return replace(item, parameters=replace(parameters, name=str(value)))
+    return item
+
+
+def _with_number(item: KinematicSet, index: int, reading: Reading) -> KinematicSet:
+    value = float(reading.value or 0)
+    origin = reading.entry.key_span
+    return replace(item, parameters=item.parameters.with_value(index, value, origin))
+
+
+def _overwritten(item: KinematicSet, index: int, reading: Reading) -> tuple[Diagnostic, ...]:
+    span = reading.entry.key_span
+    writers = [w for w in item.parameters.origins.get(index, ()) if w.source is span.source]
+    old, new = item.parameters.values[index], float(reading.value or 0)
+    if not writers or old == new:
+        return ()
+    return (overwrite_warning(reading, f"{old:g}", tuple(writers)),)
+
+
+def overwrite_warning(reading: Reading, old: str, writers: tuple[Span, ...]) -> Diagnostic:
+    """N3007: an entry replaces the different value `old` of earlier lines."""
+    message = f"{reading.entry.key} {reading.entry.value_text} overwrites the earlier value {old}"
+    hint = "the last entry counts; check the index numbers of the key, or delete one of the lines"
+    notes = tuple(("written before here", span) for span in writers)
+    return diagnostic("N3007", reading.entry.key_span, message, hint, notes=notes)
+
+
+def _same_id(earlier: KinematicSet, later: KinematicSet) -> Diagnostic:
+    new, old = later.id_reading or later.first, earlier.id_reading or earlier.first
+    message = (
+        f"{later.slot.spelling} has the kinematic id {later.id} of {earlier.slot.spelling}; "
+        f"only {later.slot.spelling} counts"
+    )
+    notes = (("the same id here", old.entry.key_span),)
+    return diagnostic(
+        "N3007", new.entry.key_span, message, "give each data set its own id", notes=notes
+    )
+
+
+def _without_id(item: KinematicSet) -> Diagnostic:
+    message = f"{item.slot.spelling} has no id, so that no program can select it"
+    hint = f"write {item.slot.spelling}.id 91"
+    return diagnostic("N3010", item.first.entry.key_span, message, hint)
+
+
+def _typed(parameters: KinematicParameters) -> KinematicParameters:
+    """Type 0 takes the value of the id (P-CHAN-00829)."""
+    return parameters if parameters.type else replace(parameters, type=parameters.id)

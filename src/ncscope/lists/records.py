@@ -1,0 +1,149 @@
+"""Zero offsets, clamp positions, tools and channel settings from their lists.
+
+List units are 0.1 um (0.0001 inch for tools in inches) and 0.0001 degrees; records are in mm and
+degrees. Source: P-ZERO-00001 to -00004, P-CLMP-00001, P-TOOL-00003 to -00011, P-TOOL-00146.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ncscope.diagnostics import Diagnostic, diagnostic
+from ncscope.lists.axes import UNITS
+from ncscope.lists.values import Reading
+from ncscope.machine import ChannelSettings, OffsetRecord, Tool, ZeroOffsets
+
+MM_PER_INCH = 25.4
+ROTATION_SEQUENCES = frozenset(
+    ("XYZ", "XYX", "XZY", "XZX", "YXZ", "YXY", "YZX", "YZY", "ZXY", "ZXZ", "ZYX", "ZYZ")
+)
+
+SETTINGS_OF_KEYS = {
+    "kinematik_id": "default_kinematic_id",
+    "default_id_of_kin_step[0]": "default_kinematic_id",
+    "ori_rotation_angle": "orientation_mode",
+    "move_tool_offsets_directly": "tool_moves_at_once",
+    "einrechnen_mit_t": "tool_with_t",
+    "p_param_haltend": "keep_parameters",
+    "coordinate_system.rotation_sequence": "rotation_sequence",
+    "coordinate_system.rotation_mode_fixed": "rotation_fixed",
+    "coordinate_system.axes_offsets_layer_specific": "offsets_per_level",
+    "ori_wcs": "orientation_in_cs",
+}
+"""List keys of the channel settings and their names in `ChannelSettings`."""
+
+
+def zero_offsets(readings: Iterable[Reading]) -> ZeroOffsets:
+    """The zero offset groups that the list mentions."""
+    groups: dict[int, dict[str, Reading]] = defaultdict(dict)
+    single: dict[str, Reading] = {}
+    for reading in readings:
+        if reading.value is None:
+            continue
+        if len(reading.indices) == 2:
+            groups[reading.indices[0]][f"{reading.field}{reading.indices[1]}"] = reading
+        else:
+            single[reading.row.key] = reading
+    return ZeroOffsets(
+        {group: _offset_record(parts.values()) for group, parts in sorted(groups.items())},
+        bool(_number(single, "g53_verfuegbar")),
+        int(_number(single, "default_index")),
+    )
+
+
+def clamp_positions(readings: Iterable[Reading]) -> dict[int, OffsetRecord]:
+    """The clamp position groups that the list mentions."""
+    groups: dict[int, list[Reading]] = defaultdict(list)
+    for reading in readings:
+        if reading.value is not None:
+            groups[reading.indices[0]].append(reading)
+    return {group: _offset_record(parts) for group, parts in sorted(groups.items())}
+
+
+def tools(readings: Iterable[Reading]) -> dict[int, Tool]:
+    """The tool records that the list mentions, by tool index."""
+    found: dict[int, dict[tuple[str, int], Reading]] = defaultdict(dict)
+    for reading in readings:
+        if reading.value is not None and reading.row.key.startswith("wz[]."):
+            index = reading.indices[1] if len(reading.indices) > 1 else 0
+            found[reading.indices[0]][_tool_field(reading), index] = reading
+    return {index: _tool(parts) for index, parts in sorted(found.items())}
+
+
+def channel_settings(
+    readings: Iterable[Reading],
+) -> tuple[ChannelSettings, tuple[Diagnostic, ...]]:
+    """The settings of the channel list; the last entry of a setting counts."""
+    values: dict[str, Any] = {}
+    found: list[Diagnostic] = []
+    for reading in readings:
+        name = SETTINGS_OF_KEYS.get(reading.entry.key.lower())
+        if name is None or reading.value is None:
+            continue
+        if name == "rotation_sequence" and reading.value not in ROTATION_SEQUENCES:
+            found.append(_bad_sequence(reading))
+            continue
+        default = getattr(ChannelSettings(), name)
+        values[name] = type(default)(reading.value)
+    return ChannelSettings(**values), tuple(found)
+
+
+def _offset_record(readings: Iterable[Reading]) -> OffsetRecord:
+    values: dict[int, float] = {}
+    origins: dict[int, str] = {}
+    inactive: dict[int, bool] = {}
+    for reading in readings:
+        axis = reading.indices[1]
+        if reading.field == "inaktiv":
+            inactive[axis] = bool(reading.value)
+            continue
+        values[axis] = float(reading.value or 0) / UNITS
+        origins[axis] = reading.entry.place
+    return OffsetRecord(values, frozenset(a for a, off in inactive.items() if off), origins)
+
+
+def _tool_field(reading: Reading) -> str:
+    return reading.row.key.removeprefix("wz[].").removesuffix("[]")
+
+
+def _tool(parts: Mapping[tuple[str, int], Reading]) -> Tool:
+    single = {field: reading for (field, _), reading in parts.items()}
+    factor = (MM_PER_INCH if _number(single, "mass_einheit") == 1 else 1.0) / UNITS
+    offsets = _indexed(parts, "ax_versatz")
+    return Tool(
+        length=_number(single, "laenge") * factor,
+        radius=_number(single, "radius") * factor,
+        axis_offsets={axis: value * factor for axis, value in offsets.items()},
+        valid=bool(_number(single, "gueltig")),
+        fixed=bool(_number(single, "tool_fixed")),
+        orientation=_orientation(_indexed(parts, "orientation_vector")),
+        kinematic_id=int(_number(single, "kin_id")),
+        kinematic_parameters=_indexed(parts, "kinematic.param"),
+        origin=single.get("laenge", next(iter(parts.values()))).entry.place,
+    )
+
+
+def _indexed(parts: Mapping[tuple[str, int], Reading], field: str) -> dict[int, float]:
+    return {
+        index: float(reading.value or 0)
+        for (name, index), reading in sorted(parts.items(), key=lambda item: item[0])
+        if name == field
+    }
+
+
+def _orientation(values: Mapping[int, float]) -> tuple[float, float, float] | None:
+    vector = (values.get(0, 0.0), values.get(1, 0.0), values.get(2, 0.0))
+    return vector if any(vector) else None
+
+
+def _number(readings: Mapping[str, Reading], key: str) -> float:
+    reading = readings.get(key)
+    return float(reading.value or 0) if reading else 0.0
+
+
+def _bad_sequence(reading: Reading) -> Diagnostic:
+    message = f"{reading.entry.key} ({reading.row.id}): {reading.value} is no rotation sequence"
+    hint = "write one of " + " ".join(sorted(ROTATION_SEQUENCES))
+    return diagnostic("22190", reading.entry.value_span, message, hint)

@@ -1,0 +1,306 @@
+"""What a run produced, as columns.
+
+Stored are the programmed values (PCS) and the axis positions (ACS) of every motion block; the
+workpiece and machine systems and the tool direction are computed from the `Coordinates` of the
+block when asked. Arrays have one row per move and one column per axis name of the run; an axis
+that was not in the channel at a block is NaN there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ncscope.coordinates import Coordinates, Layer
+from ncscope.diagnostics import Diagnostic, render
+from ncscope.frames import Array
+from ncscope.motion import Move
+
+NO_BLOCK = -1
+"""In the column `block`: the line has no N number."""
+MOTIONS = ("G00", "G01")
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Consecutive moves under one `Coordinates` and one set of axes.
+
+    line, block: int64 (m,). motion: index into MOTIONS, int8 (m,). feed: NaN where none.
+    pcs, acs: (m, n). start: (n,) axis positions before the first move.
+    """
+
+    coordinates: Coordinates
+    axes: tuple[str, ...]
+    file: str
+    line: NDArray[np.int64]
+    block: NDArray[np.int64]
+    motion: NDArray[np.int8]
+    feed: Array
+    pcs: Array
+    acs: Array
+    start: Array
+
+    def __len__(self) -> int:
+        return len(self.line)
+
+    @cached_property
+    def mcs(self) -> Array:
+        return self.coordinates.to_mcs(self.pcs)
+
+    @cached_property
+    def wcs(self) -> Array:
+        return self.coordinates.to_wcs(self.pcs)
+
+    @cached_property
+    def direction(self) -> Array | None:
+        return self.coordinates.direction(self.acs)
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """The layers between the programmed word and the axes for one block."""
+
+    file: str
+    line: int
+    block: int | None
+    axes: tuple[str, ...]
+    layers: tuple[Layer, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The form of `explain --format json`."""
+        return {
+            "file": self.file,
+            "line": self.line,
+            "block": self.block,
+            "layers": [
+                {
+                    "name": layer.name,
+                    "origin": layer.origin,
+                    "change": dict(zip(self.axes, map(float, layer.change), strict=True)),
+                    "values": dict(zip(self.axes, map(float, layer.values), strict=True)),
+                }
+                for layer in self.layers
+            ],
+        }
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """The result of a run.
+
+    axes: every axis name that was in the channel, in order of appearance. messages: what the
+    program wrote. diagnostics: in the order they arose. ok: the program ran to its end.
+    """
+
+    stretches: tuple[Stretch, ...]
+    axes: tuple[str, ...]
+    diagnostics: tuple[Diagnostic, ...] = ()
+    messages: tuple[Any, ...] = ()
+    ok: bool = True
+    _places: Mapping[int, tuple] = field(default_factory=dict, repr=False)
+
+    def __len__(self) -> int:
+        return sum(len(s) for s in self.stretches)
+
+    @property
+    def line(self) -> NDArray[np.int64]:
+        """Source lines, counted from 1."""
+        return self._column(lambda s: s.line, np.int64)
+
+    @property
+    def block(self) -> NDArray[np.int64]:
+        """Block numbers; -1 where the line has none."""
+        return self._column(lambda s: s.block, np.int64)
+
+    @property
+    def motion(self) -> NDArray[np.str_]:
+        codes = self._column(lambda s: s.motion, np.int8)
+        return np.array(MOTIONS)[codes] if len(codes) else np.array([], dtype="U3")
+
+    @property
+    def feed(self) -> Array:
+        """Programmed feed, mm or degrees per minute; NaN where none."""
+        return self._column(lambda s: s.feed, np.float64)
+
+    @property
+    def pcs(self) -> Array:
+        """(moves, axes): programmed values made absolute; mm and degrees."""
+        return self._matrix(lambda s: s.pcs)
+
+    @property
+    def wcs(self) -> Array:
+        """(moves, axes): the workpiece system, all coordinate systems undone."""
+        return self._matrix(lambda s: s.wcs)
+
+    @property
+    def mcs(self) -> Array:
+        """(moves, axes): the tool tip in the Cartesian machine system; other axes beside it."""
+        return self._matrix(lambda s: s.mcs)
+
+    @property
+    def acs(self) -> Array:
+        """(moves, axes): axis positions; mm and degrees."""
+        return self._matrix(lambda s: s.acs)
+
+    @property
+    def direction(self) -> Array:
+        """(moves, 3): unit vector tip -> flange in the MCS; NaN without a kinematics."""
+        rows = [
+            np.full((len(s), 3), np.nan) if s.direction is None else s.direction
+            for s in self.stretches
+        ]
+        return np.concatenate(rows) if rows else np.empty((0, 3))
+
+    def check(self) -> Trajectory:
+        """This result; raises RuntimeError with the rendered errors when the run failed."""
+        errors = [d for d in self.diagnostics if d.is_error]
+        if errors or not self.ok:
+            raise RuntimeError("\n".join(render(d) for d in errors) or "the run did not end")
+        return self
+
+    def explain(self, line: int) -> Explanation:
+        """The layers at a line of the program; of several runs of the line, the last.
+
+        Raises KeyError, naming the nearest line, when the line was not executed.
+        """
+        found = self._last_row(line) or self._places.get(line)
+        if found is None:
+            executed = [*self._places, *(int(v) for s in self.stretches for v in np.unique(s.line))]
+            near = min(executed, key=lambda other: abs(other - line), default=None)
+            hint = f"; the nearest is line {near}" if near is not None else ""
+            raise KeyError(f"line {line} was not executed{hint}")
+        coordinates, axes, file, block, program, start = found
+        layers = coordinates.layers(program, near=start)
+        return Explanation(file, line, block, axes, layers)
+
+    def line_of_block(self, number: int) -> int | None:
+        """The line of the block with this N number that was executed last; None without."""
+        for s in reversed(self.stretches):
+            rows = np.flatnonzero(s.block == number)
+            if len(rows):
+                return int(s.line[rows[-1]])
+        lines = [line for line, place in self._places.items() if place[3] == number]
+        return lines[-1] if lines else None
+
+    def to_arrow(self) -> Any:
+        """A pyarrow Table: line, block, motion, feed, then pcs_X .. acs_X, mcs_X, wcs_X."""
+        import pyarrow as pa
+
+        columns: dict[str, Any] = {
+            "line": self.line,
+            "block": self.block,
+            "motion": self.motion,
+            "feed": self.feed,
+        }
+        for name in ("pcs", "wcs", "mcs", "acs"):
+            matrix = getattr(self, name)
+            columns |= {f"{name}_{axis}": matrix[:, i] for i, axis in enumerate(self.axes)}
+        columns |= {f"direction_{c}": self.direction[:, i] for i, c in enumerate("ijk")}
+        return pa.table(columns)
+
+    def to_pandas(self) -> Any:
+        """The table of `to_arrow` as a DataFrame; needs pandas."""
+        return self.to_arrow().to_pandas()
+
+    # --- parts ---------------------------------------------------------------------------------
+
+    def _last_row(self, line: int) -> tuple | None:
+        for s in reversed(self.stretches):
+            rows = np.flatnonzero(s.line == line)
+            if len(rows):
+                i = int(rows[-1])
+                block = None if s.block[i] == NO_BLOCK else int(s.block[i])
+                near = s.acs[i - 1] if i else s.start
+                return s.coordinates, s.axes, s.file, block, s.pcs[i], near
+        return None
+
+    def _column(self, pick: Callable[[Stretch], Any], dtype: Any) -> Any:
+        parts = [pick(s) for s in self.stretches]
+        return np.concatenate(parts) if parts else np.array([], dtype=dtype)
+
+    def _matrix(self, pick: Callable[[Stretch], Array]) -> Array:
+        result = np.full((len(self), len(self.axes)), np.nan)
+        row = 0
+        for s in self.stretches:
+            columns = [self.axes.index(a) for a in s.axes]
+            result[row : row + len(s), columns] = pick(s)
+            row += len(s)
+        return result
+
+
+class Recorder:
+    """Collects moves while a program runs, in growing columns, and closes a stretch whenever the
+    coordinates or the axes change."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.stretches: list[Stretch] = []
+        self.axes: list[str] = []
+        self.moves = 0
+        self.places: dict[int, tuple] = {}
+        self._open: tuple[Coordinates, tuple[str, ...], Array] | None = None
+        self._rows: list[tuple] = []
+        self._pcs: list[Array] = []
+        self._acs: list[Array] = []
+
+    def add(self, coordinates: Coordinates, axes: tuple[str, ...], move: Move, start: Array) -> None:
+        """One move; `start` are the axis positions before it."""
+        if self._open is None or self._open[0] is not coordinates or self._open[1] != axes:
+            self.close()
+            self._open = (coordinates, axes, start)
+        self._rows.append(
+            (
+                move.span.line,
+                NO_BLOCK if move.block is None else move.block,
+                MOTIONS.index(move.motion),
+                np.nan if move.feed is None else move.feed,
+            )
+        )
+        self._pcs.append(move.program)
+        self._acs.append(move.axes)
+        self.moves += 1
+
+    def extend(self, stretch: Stretch) -> None:
+        """Many moves at once."""
+        self.close()
+        self._name_axes(stretch.axes)
+        self.stretches.append(stretch)
+        self.moves += len(stretch)
+
+    def visit(
+        self, line: int, block: int | None, coordinates: Coordinates, axes: tuple[str, ...],
+        program: Array, position: Array,
+    ) -> None:  # fmt: skip
+        """A block without motion: what `explain` of its line shows."""
+        self.places[line] = (coordinates, axes, self.file, block, program, position)
+
+    def close(self) -> None:
+        if self._open is None:
+            return
+        coordinates, axes, start = self._open
+        self._name_axes(axes)
+        lines, blocks, motions, feeds = zip(*self._rows, strict=True)
+        self.stretches.append(
+            Stretch(
+                coordinates,
+                axes,
+                self.file,
+                np.array(lines, dtype=np.int64),
+                np.array(blocks, dtype=np.int64),
+                np.array(motions, dtype=np.int8),
+                np.array(feeds, dtype=float),
+                np.array(self._pcs, dtype=float),
+                np.array(self._acs, dtype=float),
+                start,
+            )
+        )
+        self._open = None
+        self._rows, self._pcs, self._acs = [], [], []
+
+    def _name_axes(self, axes: tuple[str, ...]) -> None:
+        self.axes.extend(a for a in axes if a not in self.axes)

@@ -1,0 +1,47 @@
+"""Messages of a program as files, only below the folder that the user gave."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path, PurePosixPath
+
+from ncscope.channel.draft import Message
+from ncscope.diagnostics import Diagnostic, diagnostic
+
+
+def write_messages(
+    folder: Path, messages: Iterable[Message], protected: Iterable[Path] = ()
+) -> tuple[Diagnostic, ...]:
+    """Appends each message to its file, as the control does; the folder is made when needed.
+
+    Of the name that the program gave only the last part counts. A file that is a link, or that is
+    one of `protected` (the program itself), is not written.
+    """
+    texts: dict[str, list[str]] = {}
+    for message in messages:
+        if message.file is not None:
+            texts.setdefault(safe_name(message.file), []).append(message.text + message.end)
+    found: list[Diagnostic] = []
+    guarded = {p.resolve() for p in protected}
+    for name, parts in texts.items():
+        target = folder / name
+        if target.is_symlink() or target.resolve() in guarded or target.is_dir():
+            found.append(
+                diagnostic("N4003", None, f"{name} is not written: it is a link, a folder or a "
+                           "file of this run")
+            )  # fmt: skip
+            continue
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            with target.open("a", encoding="latin-1", errors="replace", newline="") as out:
+                out.write("".join(parts))
+        except OSError as error:
+            found.append(diagnostic("N4003", None, f"{name} cannot be written: {error.strerror}"))
+    return tuple(found)
+
+
+def safe_name(name: str) -> str:
+    """The last part of a path in either notation, without control characters."""
+    last = PurePosixPath(name.replace("\\", "/")).name
+    plain = "".join(c for c in last if c.isprintable() and c not in '<>:"|?*')
+    return plain[:120] if plain.strip(". ") else "message.txt"

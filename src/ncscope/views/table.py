@@ -1,0 +1,104 @@
+"""A run as a table for people: per move one row for each coordinate system that differs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from rich.table import Table
+
+from ncscope.frames import Array
+from ncscope.trajectory import MOTIONS, NO_BLOCK, Explanation, Stretch, Trajectory
+
+FIRST, LAST = 40, 10
+"""A long run is shortened to its first and last moves."""
+
+
+def run_table(result: Trajectory, whole: bool = False) -> Table:
+    """Line, block number, motion, feed, then the axes in PCS, WCS, MCS and ACS."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for name in ("line", "N", "G", "F"):
+        table.add_column(name, justify="right", no_wrap=True)
+    table.add_column("", style="bold", no_wrap=True)
+    for axis in result.axes:
+        table.add_column(axis, justify="right", no_wrap=True)
+    directed = any(s.direction is not None for s in result.stretches)
+    if directed:
+        table.add_column("tool direction", justify="right", no_wrap=True)
+    systems = _systems(result)
+    count = len(result)
+    hidden = 0 if whole or count <= FIRST + LAST else count - FIRST - LAST
+    for index, stretch, i in _rows(result):
+        if hidden and index == FIRST:
+            table.add_row("", "", "", "", f"... {hidden} more", style="dim")
+        if hidden and FIRST <= index < count - LAST:
+            continue
+        for cells in _cells(result.axes, stretch, i, systems, directed):
+            table.add_row(*cells)
+    return table
+
+
+def _rows(result: Trajectory) -> Iterator[tuple[int, Stretch, int]]:
+    index = 0
+    for stretch in result.stretches:
+        for i in range(len(stretch)):
+            yield index, stretch, i
+            index += 1
+
+
+def _systems(result: Trajectory) -> tuple[str, ...]:
+    """The systems that differ from the one above somewhere in the run; PCS and ACS always."""
+    names = ["PCS"]
+    pcs, wcs, mcs, acs = result.pcs, result.wcs, result.mcs, result.acs
+    if not np.array_equal(pcs, wcs, equal_nan=True):
+        names.append("WCS")
+    if not np.array_equal(wcs, mcs, equal_nan=True) and not np.array_equal(
+        mcs, acs, equal_nan=True
+    ):
+        names.append("MCS")
+    return (*names, "ACS")
+
+
+def _cells(
+    axes: tuple[str, ...], s: Stretch, i: int, systems: tuple[str, ...], directed: bool
+) -> Iterator[list[str]]:
+    block = "" if s.block[i] == NO_BLOCK else str(s.block[i])
+    feed = "" if np.isnan(s.feed[i]) else f"{s.feed[i]:g}"
+    head = [str(s.line[i]), block, MOTIONS[s.motion[i]], feed]
+    for k, system in enumerate(systems):
+        values = getattr(s, system.lower())[i]
+        row = [*(head if k == 0 else [""] * 4), system, *_numbers(axes, s.axes, values)]
+        if directed:
+            row.append(_vector(s.direction[i]) if system == "ACS" and s.direction is not None else "")
+        yield row
+
+
+def _numbers(axes: tuple[str, ...], present: tuple[str, ...], values: Array) -> list[str]:
+    return [number(values[present.index(a)]) if a in present else "" for a in axes]
+
+
+def number(value: float) -> str:
+    """Four decimals: the resolution of the control; never a negative zero."""
+    return f"{value + 0.0:.4f}" if abs(value) >= 5e-5 else "0.0000"
+
+
+def _vector(direction: Array) -> str:
+    return " ".join(f"{number(c):>7}" for c in direction)
+
+
+def explain_table(item: Explanation) -> Table:
+    """The layers from the programmed word to the axes: contribution and value after it."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("layer", no_wrap=True)
+    for axis in item.axes:
+        table.add_column(axis, justify="right", no_wrap=True)
+    table.add_column("set at")
+    ends = ("programmed", "axes")
+    for layer in item.layers:
+        if layer.name not in ends:
+            change = [f"{v:+.4f}" if abs(v) >= 5e-5 else "" for v in layer.change]
+            table.add_row(layer.name, *change, layer.origin or "")
+        values = [number(v) for v in layer.values]
+        label = layer.name if layer.name in ends else ""
+        table.add_row(label, *values, "", style="bold" if label else "dim")
+    return table
