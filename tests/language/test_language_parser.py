@@ -242,7 +242,7 @@ def _listed_commands():
     for line in COMMANDS_OF_THE_DIALECT.read_text().splitlines()[1:]:
         entry = line.split("\t")[0].replace("/|||", "/").replace("|||", "/")
         if entry.startswith("#"):
-            yield from _spelled_out(entry.replace("...", "/").replace("#", ""))
+            yield from _spelled_out(entry[1:].replace("...", "/"))
 
 
 def _spelled_out(entry):
@@ -251,7 +251,7 @@ def _spelled_out(entry):
     yield first
     stem = first.rsplit(" ", 1)[0] if " " in first else ""
     for other in others:
-        yield f"{stem} {other}".strip()
+        yield other[1:] if other.startswith("#") else f"{stem} {other}".strip()
 
 
 FRAGMENTS = ["X", "X10", "G01", "#CS ON", "[", "]", "(", ")", ";", '"', "\\", "\n", "P1=", "V.P.A"]
@@ -295,3 +295,26 @@ def test_tokens_cover_the_source(text):
         at += len("".join(line))
         assert at == stop
     assert joined == text
+
+
+def test_the_seed_program_is_read_without_a_diagnostic():
+    text = """
+; universal kinematics, FCT-C27 4.3
+N00010 V.G.KIN[91].NUMBER_OF_AXES = 5
+N00020 V.G.KIN[91].AXIS[0].ORIENTATION[0] = 1
+N00730 #SET AX [X, 1, 0] [Y, 2, 1] [Z, 3, 2] [A, 4, 3] [C, 5, 4]
+N00740 #KIN ID [91]
+N00750 #TRAFO ON
+N00760 G00 X0 Y0 Z0 B0
+N00920 #FLUSH WAIT
+N00930 #CHANNEL INIT [CMDPOS]
+N00940 #MSG SAVE EXCLUSIVE ["X setpoint: %f", V.A.ACS.ABS.X]
+N00990 #MSG SAVE EXCLUSIVE [""]
+N01000 #TRAFO OFF
+N01010 V.G.WZ_AKT.L = 99
+N01320 M30
+"""
+    found = program(text)
+    assert found.diagnostics == ()
+    assert [block.number.value for block in found.blocks][:3] == [10, 20, 730]
+    assert found.blocks[-1].span.text == "N01320 M30"

@@ -261,6 +261,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("CHANNEL INTERFACE ON", "no effect", "Defines monitored signals of a channel."),
     Command("CHANNEL INTERFACE OFF", "no effect", "Defines monitored signals of a channel."),
     Command("CHANNEL SET", "no effect", "Sets properties of the channel."),
+    Command("AX LOCK", "refused", "Locks axes against motion."),
     Command("AX LOCK ALL", "refused", "Locks or unlocks axes against motion."),
     Command("AX UNLOCK ALL", "refused", "Locks or unlocks axes against motion."),
     Command("AX LINK", "refused", "Couples axes."),

@@ -12,6 +12,7 @@ from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language.lexer import BLANKS
 
 _BLANK_RUN = re.compile(r"[ \t\0\r]*")
+_RUN = re.compile(r"\w+")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 
 # More brackets or operators than this in one expression are 20386; it bounds the recursion.
@@ -87,7 +88,8 @@ class Cursor:
 
     def here(self) -> Span:
         """The next word or character; an empty span at the end of the line."""
-        width = len(self.word()) or len(self.char)
+        found = _RUN.match(self.code, self.at)
+        width = len(found.group()) if found else len(self.char)
         return self.span(self.at, self.at + width)
 
     def written_end(self) -> int:

@@ -59,7 +59,7 @@ AXIS_COMMANDS = frozenset(
 )
 
 _SIMPLE = re.compile(
-    r"([A-FHIJKQRT-Za-fhijkqrt-zGg])([-+]?)([0-9]{1,15}(?:\.[0-9]{0,15})?|\.[0-9]{1,15})"
+    r"([A-KMQRT-Za-kmqrt-z])([-+]?)([0-9]{1,15}(?:\.[0-9]{0,15})?|\.[0-9]{1,15})"
     r"(?=[ \t\0\r]*\Z|[ \t\0\r]+(?!(?:MOD|XOR)(?!\w))[A-Za-z])",
     re.IGNORECASE,
 )
@@ -104,6 +104,8 @@ def _simple(cursor: Cursor, found: re.Match[str]) -> Word:
         return AxisWord(letter, number, sign, span)
     if letter in "Gg":
         return GWord(number, None, None, span)
+    if letter in "Mm":
+        return MWord(number, (), span)
     return AddressWord(letter.upper(), number, span)
 
 
