@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from ncscope.diagnostics import Diagnostic
     from ncscope.machine import Machine
-    from ncscope.run import Program
+    from ncscope.execution import Program
     from ncscope.trajectory import Trajectory
 
 app = typer.Typer(
@@ -91,7 +91,7 @@ def run_command(
     strict: Annotated[bool, typer.Option("--strict", help="A warning stops the run.")] = False,
 ) -> None:
     """Run an NC program and show where the tool and every axis go."""
-    from ncscope.run import Options
+    from ncscope.execution import Options
     from ncscope.views.message_files import write_messages
 
     shape = _format(format, out)
@@ -121,7 +121,7 @@ def explain_command(
     """Take the axis positions of one block apart, each part with the line that set it."""
     import json
 
-    from ncscope.run import Options
+    from ncscope.execution import Options
     from ncscope.views.table import explain_table
 
     path, line, number = _place(place)
@@ -157,7 +157,7 @@ def check_command(
         if path.is_dir() or path.suffix.lower() == ".lis":
             found.extend(check_lists(path))
         else:
-            from ncscope.run import Options
+            from ncscope.execution import Options
 
             result, more, _ = _run(path, machine, Options(max_blocks=1_000_000))
             found.extend([*(d for d in more if d.severity != "note"), *result.diagnostics])
@@ -174,7 +174,7 @@ def _run(
     path: Path, machine_path: Path | None, options, strict: bool = False
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
     from ncscope.loading import load_program
-    from ncscope.run import run
+    from ncscope.execution import run
 
     machine, found = _machine(machine_path)
     if options.clamp is not None and options.clamp not in machine.clamp_positions:

@@ -175,7 +175,7 @@ class Coordinates:
         n = min(3, self.axis_count)
         result[..., 3:] -= self._offset_total[3:]
         back = self._main(self.mcs_frame.inverse)
-        result[..., :n] = result[..., :n] @ back[0].T + back[1]
+        result[..., :n] = _transformed(result[..., :n], *back)
         return result
 
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
@@ -276,8 +276,7 @@ class Coordinates:
     def _affine(self, program: ArrayLike, frame: Frame, total: Array) -> Array:
         result = np.array(program, dtype=float)
         n = min(3, self.axis_count)
-        rotation, shift = self._main(frame)
-        result[..., :n] = result[..., :n] @ rotation.T + shift
+        result[..., :n] = _transformed(result[..., :n], *self._main(frame))
         result[..., 3:] += total[3:]
         return result
 
@@ -321,6 +320,13 @@ def _main_axes(values: Array) -> Array:
     main = np.zeros(3)
     main[: min(3, len(values))] = values[:3]
     return main
+
+
+def _transformed(points: Array, rotation: Array, shift: Array) -> Array:
+    """rotation @ point + shift, summed in one order so that one row and a million agree."""
+    n = points.shape[-1]
+    rows = [sum(rotation[i, j] * points[..., j] for j in range(n)) + shift[i] for i in range(n)]
+    return np.stack(rows, axis=-1)
 
 
 def _adder(values: ArrayLike):

@@ -91,7 +91,7 @@ class Draft:
         try:
             self.state = self.state.with_coordinates(coordinates)
         except KinematicsError as error:
-            self.fail(error.id, span, str(error))
+            self.fail(error.id, span, error.message)
 
     def move_to(self, program: np.ndarray, span: Span) -> None:
         """A motion to programmed values (n,), mm and degrees."""
@@ -99,7 +99,7 @@ class Draft:
         try:
             axes = state.coordinates.to_axes(program, near=state.position.axes)
         except KinematicsError as error:
-            self.fail(error.id, span, str(error))
+            self.fail(error.id, span, error.message)
         if not np.all(np.isfinite(axes)):
             self.fail("21883", span, "the axis position is too large to be computed")
         self.state = replace(state, position=Position(axes, program))
