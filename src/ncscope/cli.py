@@ -6,6 +6,7 @@ Exit codes: 0 the program ran, 1 it ended with an error, 2 the command was used 
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
@@ -15,14 +16,17 @@ import typer
 from ncscope import __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     from rich.console import Console
 
     from ncscope.diagnostics import Diagnostic
-    from ncscope.machine import Machine
     from ncscope.execution import Program
+    from ncscope.machine import Machine
     from ncscope.trajectory import Trajectory
+
+LONG_PROGRAM = 200_000
+"""Characters from which a run shows its progress."""
 
 app = typer.Typer(
     add_completion=False,
@@ -173,8 +177,8 @@ def check_command(
 def _run(
     path: Path, machine_path: Path | None, options, strict: bool = False
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
-    from ncscope.loading import load_program
     from ncscope.execution import run
+    from ncscope.loading import load_program
 
     machine, found = _machine(machine_path)
     if options.clamp is not None and options.clamp not in machine.clamp_positions:
@@ -260,7 +264,8 @@ def _show_run(result: Trajectory, ok: bool) -> None:
     from ncscope.views.table import run_table
 
     console = _console()
-    console.print(run_table(result))
+    if len(result):
+        console.print(run_table(result))
     for message in result.messages:
         console.print(f"message  {message.text}", markup=False, highlight=False)
     status = "ok" if ok else "stopped by an error"
@@ -288,26 +293,17 @@ def _console(stderr: bool = False) -> Console:
     return Console(stderr=stderr, width=width, highlight=False)
 
 
-class _progress:  # noqa: N801
+@contextmanager
+def _progress(total: int) -> Iterator[Callable[[int], None] | None]:
     """A progress bar on standard error for long programs, when that is a terminal."""
+    if total < LONG_PROGRAM or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.progress import Progress
 
-    def __init__(self, total: int) -> None:
-        self.total = total
-        self.bar = None
-
-    def __enter__(self) -> Callable[[int], None] | None:
-        if self.total < 200_000 or not sys.stderr.isatty():
-            return None
-        from rich.progress import Progress
-
-        self.bar = Progress(console=_console(stderr=True), transient=True)
-        self.bar.start()
-        task = self.bar.add_task("running", total=self.total)
-        return lambda offset: self.bar.update(task, completed=offset)
-
-    def __exit__(self, *_: object) -> None:
-        if self.bar is not None:
-            self.bar.stop()
+    with Progress(console=_console(stderr=True), transient=True) as bar:
+        task = bar.add_task("running", total=total)
+        yield lambda offset: bar.update(task, completed=offset)
 
 
 def _fail(message: str, code: int = 2) -> NoReturn:

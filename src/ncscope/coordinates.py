@@ -97,7 +97,6 @@ class ActiveTool:
     axis_offsets: tuple[float, ...] = ()
     direction: tuple[float, float, float] = (0.0, 0.0, -1.0)
     fixed: bool = False
-    name: str = "tool"
     origin: str | None = None
 
 
@@ -108,7 +107,6 @@ class ActiveKinematics:
     model: UniversalKinematics
     pose: int | None = None
     orientation_in_cs: bool = False
-    name: str = "kinematics"
     origin: str | None = None
 
 
@@ -232,9 +230,7 @@ class Coordinates:
         frame = Frame("MCS", "level 0", shift=_main_axes(self.levels[0].total(self.axis_count)))
         for k, level in enumerate(self.levels[1:], start=1):
             step = Frame(f"level {k - 1}", f"level {k}", level.frame.rotation, level.frame.shift)
-            own = Frame(
-                f"level {k}", f"level {k}", shift=_main_axes(level.total(self.axis_count))
-            )
+            own = Frame(f"level {k}", f"level {k}", shift=_main_axes(level.total(self.axis_count)))
             frame = frame @ step @ own
         return frame
 
@@ -308,11 +304,11 @@ class Coordinates:
                 yield offset.name, offset.origin, _adder(offset.values)
             if k:
                 yield level.name, level.origin, _mover(level.frame, n)
-        if self.tool.name != "tool" or np.any(self.tool_vector):
-            yield self.tool.name, self.tool.origin, _adder(-self.tool_vector)
+        if self.tool.origin is not None or np.any(self.tool_vector):
+            yield "tool", self.tool.origin, _adder(-self.tool_vector)
         if self.kinematics is not None:
             active = replace(self, levels=(BASE_LEVEL,), tool=replace(self.tool, axis_offsets=()))
-            yield self.kinematics.name, self.kinematics.origin, _solver(active, near)
+            yield "kinematics", self.kinematics.origin, _solver(active, near)
 
 
 def _main_axes(values: Array) -> Array:

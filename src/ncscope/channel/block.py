@@ -13,6 +13,7 @@ import numpy as np
 
 from ncscope.channel import offsets
 from ncscope.channel.commands import COMMANDS
+from ncscope.channel.commands.declarations import declare
 from ncscope.channel.draft import BlockError, Draft, Message
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.state import State
@@ -75,7 +76,7 @@ def _execute(draft: Draft, block: tree.Block) -> None:
     _refuse_flow(draft, block)
     # 2. # commands and declarations.
     for declaration in block.declarations:
-        COMMANDS["VAR"](draft, declaration)
+        declare(draft, declaration)
     for command in block.commands:
         _command(draft, command, block)
     # 3. Words from left to right; an assignment acts before the words that follow it.

@@ -32,9 +32,7 @@ def advance(state: State, rows: PlainRows, file: str, limit: int) -> tuple[State
     if n == 0:
         return state, None
     program = np.empty((n, len(state.axes)))
-    _fill_program(
-        rows.values[:n], absolute[:n], _factors(state), state.position.program, program
-    )
+    _fill_program(rows.values[:n], absolute[:n], _factors(state), state.position.program, program)
     axes, n = _axes(state, program)
     if n == 0:
         return state, None

@@ -24,9 +24,8 @@ def zero_name(index: int) -> str:
 def select_zero(state: State, index: int, place: str) -> State:
     """The zero offset group `index` in the innermost level (G53..G59, G159)."""
     record = state.zero_offsets.record(index)
-    offset = _offset_from_record(state, zero_name(index), record, place)
-    if index == 0 and not state.zero_offsets.group_0_is_offset:
-        offset = None
+    none = index == 0 and not state.zero_offsets.group_0_is_offset
+    offset = None if none else _offset_from_record(state, zero_name(index), record, place)
     return replace(_with_offset(state, "zero", offset), zero_index=index)
 
 
@@ -80,7 +79,9 @@ def preset(state: State, values: Mapping[int, float], place: str) -> State:
 
 def select_tool(state: State, index: int, record: Tool, place: str) -> State:
     """The tool data record `index` (D word); 0 is no tool."""
-    return with_tool(state, replace(state.tool, record_index=index, record=record, selected_at=place))
+    return with_tool(
+        state, replace(state.tool, record_index=index, record=record, selected_at=place)
+    )
 
 
 def with_tool(state: State, tool: SelectedTool) -> State:
@@ -92,7 +93,6 @@ def with_tool(state: State, tool: SelectedTool) -> State:
         axis_offsets=tuple(record.axis_offsets.get(i, 0.0) for i in range(n)),
         direction=_tool_direction(state, record),
         fixed=record.fixed,
-        name=f"tool D{tool.record_index}" if tool.record_index else "tool",
         origin=", ".join(dict.fromkeys(p for p in (record.origin, tool.selected_at) if p)) or None,
     )
     coordinates = replace(state.coordinates, tool=active)

@@ -150,9 +150,7 @@ def _combined(draft: Draft, word: tree.Assignment, old: Value, value: Value) -> 
     return {"+=": old + value, "-=": old - value, "*=": old * value}[word.operator]
 
 
-def _find(
-    draft: Draft, node: tree.Variable, numbers: tuple[int, ...]
-) -> tuple[Row, Reference]:
+def _find(draft: Draft, node: tree.Variable, numbers: tuple[int, ...]) -> tuple[Row, Reference]:
     """The table row of a variable. Axis variables may end in an axis name or an index."""
     names = [part.name.upper() + "[]" * len(part.indices) for part in node.parts]
     key = ".".join(names)
@@ -269,9 +267,7 @@ def _read_tool_axis(draft: Draft, ref: Reference) -> float:
 def _group(draft: Draft, ref: Reference) -> int:
     index = ref.numbers[0]
     if not 0 <= index < ZERO_GROUPS:
-        draft.fail(
-            "20906", ref.span, f"zero offset groups are 0 to {ZERO_GROUPS - 1}, not {index}"
-        )
+        draft.fail("20906", ref.span, f"zero offset groups are 0 to {ZERO_GROUPS - 1}, not {index}")
     return index
 
 
@@ -347,9 +343,7 @@ def _write_record(draft: Draft, node: tree.Variable, word: tree.Assignment) -> N
     values = _record_values(draft, word.value)
     if word.operator in ("+=", "-="):
         sign = 1.0 if word.operator == "+=" else -1.0
-        values = [
-            o + sign * v for o, v in zip(_record_values(draft, node), values, strict=True)
-        ]
+        values = [o + sign * v for o, v in zip(_record_values(draft, node), values, strict=True)]
     elif word.operator != "=":
         draft.fail("20573", word.span, "records know =, += and -= only")
     indexed = dict(enumerate(values))

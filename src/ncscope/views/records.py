@@ -41,7 +41,6 @@ def diagnostic_record(item: Diagnostic) -> dict[str, Any]:
         "line": item.line,
         "column": item.column,
         "message": item.message,
-        "hint": item.hint,
     }
 
 

@@ -94,7 +94,9 @@ def _id(draft: Draft, group: tree.Group) -> int:
 def _values(draft: Draft, group: tree.Group) -> tuple[float, ...]:
     """Shift in mm and angles in degrees; empty and missing places are 0."""
     if len(group.cells) > 6 or any(len(cell) > 1 for cell in group.cells):
-        draft.fail("20675", group.span, "a coordinate system has three shifts and three angles", _FORM)
+        draft.fail(
+            "20675", group.span, "a coordinate system has three shifts and three angles", _FORM
+        )
     if any(item.key for item in group.items):
         draft.fail("20675", group.span, "a coordinate system is given by numbers alone", _FORM)
     numbers = [0.0 if p is None else evaluate_number(draft, p) for p in group.places]
