@@ -179,6 +179,7 @@ def _run(
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
     from ncscope.execution import run
     from ncscope.loading import load_program
+    from ncscope.trajectory import Trajectory
 
     machine, found = _machine(machine_path)
     if options.clamp is not None and options.clamp not in machine.clamp_positions:
@@ -188,6 +189,8 @@ def _run(
         program = load_program(path)
     except OSError as error:
         _fail(f"cannot read {path}: {error.strerror}")
+    if any(d.is_error for d in found):  # on the wrong machine every number would be wrong
+        return Trajectory((), machine.axis_names, ok=False), found, program
     with _progress(len(program.source.text)) as progress:
         result = run(machine, program, options, progress)
     return result, found, program
