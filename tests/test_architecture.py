@@ -43,8 +43,9 @@ FILE_CALLS = {
     "rename", "rmdir", "iterdir", "glob", "rglob", "symlink_to", "makedirs", "remove",
 }  # fmt: skip
 DATA_READERS = {"read_text", "read_bytes"}
-NEEDS_OF_RUN = {("loading", "run")}
-"""Rooms of one height that may know each other: a program that was loaded is a run's Program."""
+NEIGHBOURS = {("loading", "run"), ("trajectory", "motion")}
+"""Rooms of one height of which the first may know the second: a loaded program is a run's
+Program, and the recorder takes Moves."""
 
 
 def modules(root: Path) -> Iterator[tuple[Path, str, ast.Module]]:
@@ -80,7 +81,7 @@ def import_faults(root: Path) -> list[str]:
         for line, other in imported_rooms(tree):
             if other not in ROOMS or room not in ROOMS:
                 faults.append(f"{path.name}:{line}: {room} -> {other}: not a room of the design")
-            elif other != room and ROOMS[other] >= ROOMS[room] and (room, other) not in NEEDS_OF_RUN:
+            elif other != room and ROOMS[other] >= ROOMS[room] and (room, other) not in NEIGHBOURS:
                 faults.append(f"{path.name}:{line}: {room} -> {other}")
     return faults
 
@@ -105,8 +106,8 @@ def _touches_files(call: ast.Call) -> bool:
             return True
         case ast.Attribute(attr=name, value=value) if name in FILE_CALLS:
             own_data = any(
-                isinstance(n, ast.Call) and getattr(n.func, "id", getattr(n.func, "attr", ""))
-                in ("files", "_files")
+                isinstance(n, ast.Call)
+                and getattr(n.func, "id", getattr(n.func, "attr", "")) in ("files", "_files")
                 for n in ast.walk(value)
             )  # package data through importlib.resources is not a file of the user
             return not (own_data and name in DATA_READERS)

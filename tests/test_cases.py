@@ -4,6 +4,7 @@
 `machine`      name of a folder in examples/machines; without it, lists in the case folder; without
                those, axes X Y Z
 `options`      lines `skip 1 3`, `clamp 2`, `max_blocks 5`, `strict`
+`known_bug`    why the case fails today; the case must be freed of it when it passes
 `expected.txt` one line per move, then diagnostics and messages:
 
     N40 acs X 10 Y 0 Z 0        block N40; L7 instead when line 7 has no block number
@@ -66,7 +67,9 @@ def run_case(folder: Path) -> ncscope.Trajectory:
     shared = folder / "program"
     path = EXAMPLES / "programs" / shared.read_text().strip() if shared.exists() else None
     machine = machine_of(folder)
-    return ncscope.run(machine, ncscope.load_program(path or folder / "main.nc"), options_of(folder))
+    return ncscope.run(
+        machine, ncscope.load_program(path or folder / "main.nc"), options_of(folder)
+    )
 
 
 def machine_of(folder: Path) -> Machine:
@@ -117,13 +120,16 @@ def written(result: ncscope.Trajectory, old: Expected) -> str:
 
 
 def _short(value: float) -> str:
-    return f"{value:.6f}".rstrip("0").rstrip(".").replace("-0", "0") if abs(value) < 5e-7 else (
-        f"{value:.6f}".rstrip("0").rstrip(".")
-    )
+    text = f"{value:.6f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
 
 
 @pytest.mark.parametrize("folder", CASES, ids=lambda p: p.name)
-def test_case(folder: Path) -> None:
+def test_case(folder: Path, request: pytest.FixtureRequest) -> None:
+    bug = folder / "known_bug"
+    if bug.exists():
+        reason = bug.read_text(encoding="utf-8").strip()
+        request.applymarker(pytest.mark.xfail(reason=reason, strict=True))
     file = folder / "expected.txt"
     expected = read_expected(file.read_text(encoding="utf-8"))
     result = run_case(folder)

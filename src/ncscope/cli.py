@@ -130,12 +130,12 @@ def explain_command(
 
     path, line, number = _place(place)
     result, found, source = _run(path, machine, Options(clamp, _levels(skip)))
-    if number is not None:
-        line = result.line_of_block(number) or _fail(f"block N{number} was not executed")
     try:
+        if number is not None:
+            line = result.line_of_block(number)
         explanation = result.explain(line=line)
     except KeyError as error:
-        _show_diagnostics([*found, *result.diagnostics])
+        _show_diagnostics(d for d in [*found, *result.diagnostics] if d.is_error)
         _fail(str(error.args[0]), code=1)
     if format is ExplainFormat.JSON:
         typer.echo(json.dumps(explanation.as_dict(), ensure_ascii=False, indent=1))

@@ -179,14 +179,16 @@ class Trajectory:
         layers = coordinates.layers(program, near=start)
         return Explanation(file, line, block, axes, layers)
 
-    def line_of_block(self, number: int) -> int | None:
-        """The line of the block with this N number that was executed last; None without."""
+    def line_of_block(self, number: int) -> int:
+        """The line of the block with this N number that was executed last; KeyError without."""
         for s in reversed(self.stretches):
             rows = np.flatnonzero(s.block == number)
             if len(rows):
                 return int(s.line[rows[-1]])
         lines = [line for line, place in self._places.items() if place[3] == number]
-        return lines[-1] if lines else None
+        if not lines:
+            raise KeyError(f"block N{number} was not executed")
+        return lines[-1]
 
     def to_arrow(self) -> Any:
         """A pyarrow Table: line, block, motion, feed, then pcs_X .. acs_X, mcs_X, wcs_X."""
