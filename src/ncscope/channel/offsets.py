@@ -68,11 +68,13 @@ def preset(state: State, values: Mapping[int, float], place: str) -> State:
     """#PSET: the present position of these axes reads `values` from now on.
 
     The old preset is replaced, not accumulated: it already counts in the present value.
+    Neither a contour rotation nor a mirror may be active; a scale may.
     """
     held = state.coordinates.top.offset("pset")
     shown = state.position.program
+    factors = state.coordinates.contour.factors(len(state.axes))
     new = {
-        axis: (held.values[axis] if held else 0.0) + float(shown[axis]) - value
+        axis: (held.values[axis] if held else 0.0) + float(factors[axis] * (shown[axis] - value))
         for axis, value in values.items()
     }
     return set_offsets(state, "pset", "#PSET", new, place)

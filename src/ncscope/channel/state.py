@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from ncscope.contour import Turn
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
 from ncscope.kinematics.parameters import KinematicParameters
@@ -86,7 +87,8 @@ class State:
 
     axes: the channel configuration. variables: `P5`, `V.P.NAME` -> value. definitions: stored
     coordinate systems by id, in the order of their definition. parked: positions of axes that
-    left the channel, by logical number. message_file: where #MSG SAVE writes.
+    left the channel, by logical number. turn, scale_factors: the values that were programmed last
+    for #ROTATION and #SCALE, by channel index. message_file: where #MSG SAVE writes.
     """
 
     axes: tuple[Axis, ...]
@@ -102,6 +104,8 @@ class State:
     definitions: Mapping[int, SystemDefinition] = field(default_factory=dict)
     macros: Mapping[str, str] = field(default_factory=dict)
     parked: Mapping[int, float] = field(default_factory=dict)
+    turn: Turn = Turn()
+    scale_factors: Mapping[int, float] = field(default_factory=dict)
     message_file: str = "message.txt"
     block: int | None = None
 

@@ -104,9 +104,13 @@ def _with_axes(state: State, axes: tuple[Axis, ...]) -> State:
     sources = [old.get(axis.number) for axis in axes]
     position = np.array([parked.get(axis.number, 0.0) for axis in axes])
     levels = tuple(_moved_level(level, sources) for level in state.coordinates.levels)
-    coordinates = replace(state.coordinates, axis_count=len(axes), levels=levels)
+    contour = state.coordinates.contour.moved(sources)
+    coordinates = replace(state.coordinates, axis_count=len(axes), levels=levels, contour=contour)
     state = replace(
         state,
+        scale_factors={
+            i: state.scale_factors[s] for i, s in enumerate(sources) if s in state.scale_factors
+        },
         axes=axes,
         coordinates=coordinates,
         parked=parked,
