@@ -21,8 +21,11 @@ def set_contour(draft: Draft, contour: Contour) -> None:
     """Another contour; offsets and axes stay where they are."""
     if contour == draft.state.coordinates.contour:
         return
-    coordinates = replace(draft.state.coordinates, contour=contour)
-    draft.state = draft.state.with_coordinates(coordinates, keep="level")
+    old = draft.state.coordinates
+    below = len(old.levels) > 1 and contour.mirror_shift != old.contour.mirror_shift
+    draft.state = draft.state.with_coordinates(
+        replace(old, contour=contour), keep="axes" if below else "level"
+    )
 
 
 def turn_on(draft: Draft, turn: Turn) -> None:

@@ -104,7 +104,7 @@ class State:
     definitions: Mapping[int, SystemDefinition] = field(default_factory=dict)
     macros: Mapping[str, str] = field(default_factory=dict)
     parked: Mapping[int, float] = field(default_factory=dict)
-    turn: Turn = Turn()
+    turn: Turn = field(default_factory=Turn)
     scale_factors: Mapping[int, float] = field(default_factory=dict)
     message_file: str = "message.txt"
     block: int | None = None

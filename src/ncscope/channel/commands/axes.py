@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -108,15 +109,17 @@ def _with_axes(state: State, axes: tuple[Axis, ...]) -> State:
     coordinates = replace(state.coordinates, axis_count=len(axes), levels=levels, contour=contour)
     state = replace(
         state,
-        scale_factors={
-            i: state.scale_factors[s] for i, s in enumerate(sources) if s in state.scale_factors
-        },
+        scale_factors=_moved_factors(state.scale_factors, sources),
         axes=axes,
         coordinates=coordinates,
         parked=parked,
         position=Position(position, coordinates.to_program(position)),
     )
     return offsets.with_tool(state, state.tool)
+
+
+def _moved_factors(factors: Mapping[int, float], sources: list[int | None]) -> dict[int, float]:
+    return {i: factors[s] for i, s in enumerate(sources) if s is not None and s in factors}
 
 
 def _moved_level(level: Level, sources: list[int | None]) -> Level:
