@@ -175,6 +175,8 @@ CATALOGUE: dict[str, Entry] = {
     "N2006": Entry("note", "An option of the command is ignored."),
     "N2020": Entry("error", "The scale factors are not allowed, or are changed while they act."),
     "N2021": Entry("error", "G20 to G23 and G351 together are not modelled."),
+    "N2022": Entry("error", "A contour rotation inside #MCS is not modelled."),
+    "N2023": Entry("warning", "#MCS ON while it is on, or #MCS OFF while it is off, has no effect."),
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),

@@ -13,6 +13,7 @@ import numpy as np
 
 from ncscope.channel import contour, offsets
 from ncscope.channel.commands import COMMANDS, LAST
+from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.state import State
@@ -114,6 +115,7 @@ def _later(draft: Draft, span: Span, what: str) -> None:
 
 
 def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None:
+    refuse_inside(draft, command)
     row = lookup(command.name)
     if command.name in COMMANDS:
         COMMANDS[command.name](draft, command)

@@ -28,13 +28,20 @@ def set_contour(draft: Draft, contour: Contour) -> None:
     )
 
 
-def turn_on(draft: Draft, turn: Turn) -> None:
+def turn_on(draft: Draft, turn: Turn, span: Span) -> None:
     """Contour rotation with these values; they replace those that act."""
+    if draft.state.suspended is not None:
+        what = "a contour rotation inside #MCS is not modelled"
+        draft.fail("N2022", span, what, "switch it on before #MCS ON or after #MCS OFF")
     draft.state = replace(draft.state, turn=turn)
     set_contour(draft, replace(draft.state.coordinates.contour, turn=turn))
 
 
-def turn_off(draft: Draft) -> None:
+def turn_off(draft: Draft, span: Span) -> None:
+    suspended = draft.state.suspended
+    if suspended is not None and suspended.coordinates.contour.turn is not None:
+        what = "a contour rotation cannot be ended inside #MCS; that is not modelled"
+        draft.fail("N2022", span, what, "end it before #MCS ON or after #MCS OFF")
     set_contour(draft, draft.state.coordinates.contour.without_turn())
 
 
@@ -42,9 +49,19 @@ def plane(draft: Draft, number: int, span: Span) -> None:
     """G17, G18, G19: another plane switches the contour rotation off, with a warning."""
     changed = number != draft.modes.plane
     draft.modal(plane=number)
-    if changed and draft.state.coordinates.contour.turn is not None:
-        turn_off(draft)
+    if changed and _drop_turn(draft):
         draft.warn("21143", span, f"G{number} switched the contour rotation off")
+
+
+def _drop_turn(draft: Draft) -> bool:
+    """Without contour rotation, here and in what #MCS suspends; whether there was one."""
+    suspended, contour = draft.state.suspended, draft.state.coordinates.contour
+    held = contour if suspended is None else suspended.coordinates.contour
+    set_contour(draft, contour.without_turn())
+    if suspended is not None:
+        waiting = replace(suspended.coordinates, contour=held.without_turn())
+        draft.state = replace(draft.state, suspended=replace(suspended, coordinates=waiting))
+    return held.turn is not None
 
 
 def rotation(draft: Draft, words: Words) -> None:
@@ -54,7 +71,7 @@ def rotation(draft: Draft, words: Words) -> None:
     position.
     """
     if 69 in words.gfunctions:
-        turn_off(draft)
+        turn_off(draft, words.gfunctions[69].span)
     if 68 not in words.gfunctions:
         return
     first, second, third = draft.state.main_axes
@@ -68,7 +85,7 @@ def rotation(draft: Draft, words: Words) -> None:
     angle = words.addresses.pop("R", (0.0, None))[0]
     centre = (_centre(draft, words, first), _centre(draft, words, second))
     words.axes.clear()
-    turn_on(draft, Turn(angle, centre, (first, second), draft.place))
+    turn_on(draft, Turn(angle, centre, (first, second), draft.place), words.gfunctions[68].span)
 
 
 def _centre(draft: Draft, words: Words, axis: int) -> float:

@@ -1,7 +1,7 @@
 """Every G function: its modal group, the control's id for two of a group, and what it does here.
 
-`effect` is `motion`, `modal`, `contour`, `offset`, `quiet` (no effect on positions, noted once) or `later`
-(moves positions and is refused by name).
+`effect` is `motion`, `modal`, `contour`, `offset`, `quiet` (no effect on positions, noted
+once) or `later` (moves positions and is refused by name).
 Source: nc_language sheet section 8; P-CHAN-00063 modal groups.
 """
 

@@ -82,14 +82,35 @@ def preset(state: State, values: Mapping[int, float], place: str) -> State:
 
 def select_tool(state: State, index: int, record: Tool, place: str) -> State:
     """The tool data record `index` (D word); 0 is no tool."""
-    return with_tool(state, replace(state.tool, record_index=index, record=record, selected_at=place))
+    suspended = state.suspended
+    if suspended is not None and not suspended.ex_tool:
+        state = replace(state, suspended=replace(suspended, tool_acts=True))
+    tool = replace(state.tool, record_index=index, record=record, selected_at=place)
+    return with_tool(state, tool)
 
 
 def with_tool(state: State, tool: SelectedTool) -> State:
-    """The state in which `tool` acts, by the plane and settings that are valid now."""
+    """The state in which `tool` acts, by the plane and settings that are valid now.
+
+    Inside #MCS it acts only where a D word stood there.
+    """
+    state = replace(state, tool=tool)
+    if state.suspended is not None and not state.suspended.tool_acts:
+        return state
+    coordinates = replace(state.coordinates, tool=active_tool(state))
+    if coordinates.tool == state.coordinates.tool:
+        return state
+    fixed = tool.record.fixed or state.coordinates.tool.fixed
+    simple = coordinates.kinematics is None and not fixed
+    return state.with_coordinates(coordinates, keep="level" if simple else "axes")
+
+
+def active_tool(state: State) -> ActiveTool:
+    """The selected tool as it acts in the plane that is valid now."""
+    tool = state.tool
     record = tool.record
     n = len(state.axes)
-    active = ActiveTool(
+    return ActiveTool(
         length=record.length,
         axis_offsets=tuple(record.axis_offsets.get(i, 0.0) for i in range(n)),
         direction=_tool_direction(state, record),
@@ -97,12 +118,6 @@ def with_tool(state: State, tool: SelectedTool) -> State:
         name=f"tool D{tool.record_index}" if tool.record_index else "tool",
         origin=", ".join(dict.fromkeys(p for p in (record.origin, tool.selected_at) if p)) or None,
     )
-    coordinates = replace(state.coordinates, tool=active)
-    state = replace(state, tool=tool)
-    if coordinates.tool == state.coordinates.tool:
-        return state
-    simple = coordinates.kinematics is None and not (record.fixed or state.coordinates.tool.fixed)
-    return state.with_coordinates(coordinates, keep="level" if simple else "axes")
 
 
 def _tool_direction(state: State, record: Tool) -> tuple[float, float, float]:

@@ -4,12 +4,21 @@ Commands without effect on positions and commands that are refused stand in the 
 `language.commands`; what is in neither is unknown.
 """
 
-from ncscope.channel.commands import axes, contour, messages, preset, systems, transformation
+from ncscope.channel.commands import (
+    axes,
+    contour,
+    machine_system,
+    messages,
+    preset,
+    systems,
+    transformation,
+)
 from ncscope.channel.commands import declarations as declared
 
 COMMANDS = {
     **systems.COMMANDS,
     **preset.COMMANDS,
+    **machine_system.COMMANDS,
     **contour.COMMANDS,
     **transformation.COMMANDS,
     **axes.COMMANDS,

@@ -27,6 +27,8 @@ def set_ax(draft: Draft, command: tree.HashCommand) -> None:
             "axes cannot be exchanged while a transformation is active",
             "switch it off first (#TRAFO OFF)",
         )
+    if draft.state.suspended is not None:
+        draft.fail("N2001", command.span, "#SET AX while #MCS is active is not supported yet")
     groups = [g for g in command.groups if not _is_option(draft, g)]
     if not groups:
         draft.fail("20480", command.span, "#SET AX needs axes", _FORM)

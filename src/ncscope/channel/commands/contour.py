@@ -38,12 +38,12 @@ def rotation_on(draft: Draft, command: tree.HashCommand) -> None:
         factor = draft.modes.length_factor
         centre = (values["CENTER1"] * factor, values["CENTER2"] * factor)
         turn = Turn(values["ANGLE"], centre)
-    turn_on(draft, replace(turn, axes=(first, second), origin=draft.place))
+    turn_on(draft, replace(turn, axes=(first, second), origin=draft.place), command.span)
 
 
 def rotation_off(draft: Draft, command: tree.HashCommand) -> None:
     """#ROTATION OFF"""
-    turn_off(draft)
+    turn_off(draft, command.span)
 
 
 def scale(draft: Draft, command: tree.HashCommand) -> None:
