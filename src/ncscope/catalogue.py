@@ -37,6 +37,8 @@ CATALOGUE: dict[str, Entry] = {
     # Kinematics
     "20658": Entry("error", "The channel lacks axes that the kinematics needs."),
     "20657": Entry("error", "The selected kinematics is not configured."),
+    "20703": Entry("error", "An axis value is out of the range of data."),
+    "20990": Entry("error", "The tool belongs to another kinematics than the active one."),
     "20687": Entry("error", "The kinematics cannot be changed while a transformation is active."),
     "21022": Entry("error", "The variable cannot be written while a transformation is active."),
     "21126": Entry("error", "Forward and backward transformation disagree."),
@@ -129,6 +131,7 @@ CATALOGUE: dict[str, Entry] = {
     "21883": Entry("error", "A value overflows."),
     # Coordinate systems and offsets
     "20607": Entry("error", "#PSET and #PRESET cannot stand in a block with a motion function."),
+    "20612": Entry("error", "#PSET is not allowed while a mirror is active."),
     "20675": Entry("error", "The values of a coordinate system are written wrongly."),
     "20774": Entry("error", "#ECS cannot be selected while another coordinate system is active."),
     "20805": Entry("error", "The command is not allowed while #MCS is active."),
@@ -137,9 +140,11 @@ CATALOGUE: dict[str, Entry] = {
     "20824": Entry("warning", "#CS OFF without an active coordinate system has no effect."),
     "20825": Entry("error", "An active coordinate system cannot be defined anew."),
     "20826": Entry("error", "Too many coordinate systems are linked."),
+    "20860": Entry("error", "G351 needs axes with the value 1 or -1, alone in its block."),
     "20985": Entry("error", "#SUPPRESS OFFSETS is not allowed with G91."),
     "21143": Entry("warning", "A change of plane switched the contour rotation off."),
     "21234": Entry("error", "Too many coordinate systems are defined."),
+    "22156": Entry("error", "The third main axis cannot stand in a block with G68."),
     # Axis exchange and messages
     "20312": Entry("error", "The axis number is unknown."),
     "20683": Entry("error", "Axes cannot be exchanged while a transformation is active."),
@@ -170,6 +175,10 @@ CATALOGUE: dict[str, Entry] = {
     "N2004": Entry("error", "G92 needs at least one axis."),
     "N2005": Entry("error", "#PSET under a contour rotation is not modelled."),
     "N2006": Entry("note", "An option of the command is ignored."),
+    "N2020": Entry("error", "The scale factors are not allowed, or are changed while they act."),
+    "N2021": Entry("error", "G20 to G23 and G351 together are not modelled."),
+    "N2022": Entry("error", "A contour rotation inside #MCS is not modelled."),
+    "N2023": Entry("warning", "#MCS is switched to the state that it already has."),
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),

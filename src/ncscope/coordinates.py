@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ncscope.contour import NO_CONTOUR, Contour
 from ncscope.frames import Array, Frame
 from ncscope.kinematics.universal import UniversalKinematics
 
@@ -73,11 +74,11 @@ class Level:
         order = sorted(held.items(), key=lambda pair: OFFSET_KINDS.index(pair[0]))
         return replace(self, offsets=tuple(order))
 
-    def total(self, n: int) -> Array:
-        """Sum of the offsets by channel axis, mm and degrees."""
+    def total(self, n: int, contour: Contour = NO_CONTOUR) -> Array:
+        """Sum of the offsets by channel axis, mm and degrees; G351 mirrors G92."""
         total = np.zeros(n)
-        for _, offset in self.offsets:
-            total += offset.values
+        for kind, offset in self.offsets:
+            total += contour.shift(kind, offset.values)
         return total
 
 
@@ -131,6 +132,7 @@ class Coordinates:
     levels: tuple[Level, ...] = (BASE_LEVEL,)
     tool: ActiveTool = ActiveTool()
     kinematics: ActiveKinematics | None = None
+    contour: Contour = NO_CONTOUR
 
     # --- the three verbs -----------------------------------------------------------------------
 
@@ -161,11 +163,12 @@ class Coordinates:
 
     def to_mcs(self, program: ArrayLike) -> Array:
         """Tool tip in the Cartesian machine system; axes beyond the third with their offsets."""
-        return self._affine(program, self.mcs_frame, self._offset_total)
+        values = self.contour.apply(program)
+        return self._affine(values, self.mcs_frame, self._offset_total)
 
     def to_wcs(self, program: ArrayLike) -> Array:
         """The same point with all coordinate systems undone, without the offsets of level 0."""
-        return self.to_mcs(program) - self.levels[0].total(self.axis_count)
+        return self.to_mcs(program) - self._total(self.levels[0])
 
     def program_from_mcs(self, mcs: ArrayLike) -> Array:
         """Programmed values (..., n) of a tool tip (..., n) in the machine system."""
@@ -174,7 +177,7 @@ class Coordinates:
         result[..., 3:] -= self._offset_total[3:]
         back = self._main(self.mcs_frame.inverse)
         result[..., :n] = _transformed(result[..., :n], *back)
-        return result
+        return self.contour.invert(result)
 
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Axis positions (..., n) for a tool tip (..., n) in the machine system."""
@@ -207,11 +210,25 @@ class Coordinates:
     def level_from_program(self, program: ArrayLike) -> Array:
         """Values (..., n) of the innermost level with its offsets and, where the tool lies in
         the level, without the tool: what stays put when an offset changes."""
-        return np.asarray(program, dtype=float) + self.top_total - self._tool_in_level
+        return self.contour.apply(program) + self.top_total - self._tool_in_level
 
     def program_from_level(self, level: ArrayLike) -> Array:
         """The programmed values (..., n) that show for level-absolute values (..., n)."""
-        return np.asarray(level, dtype=float) - self.top_total + self._tool_in_level
+        values = np.asarray(level, dtype=float) - self.top_total + self._tool_in_level
+        return self.contour.invert(values)
+
+    def suppressed(self, kinds: frozenset[str]) -> Coordinates:
+        """The same chain without the offsets of these kinds in any level; `tool` takes the tool
+        away, but not its length inside a kinematics (#SUPPRESS OFFSETS)."""
+        levels = tuple(
+            replace(level, offsets=tuple((k, o) for k, o in level.offsets if k not in kinds))
+            for level in self.levels
+        )
+        tool = self.tool
+        if "tool" in kinds:
+            length = tool.length if self.kinematics is not None else 0.0
+            tool = replace(tool, axis_offsets=(), length=length)
+        return replace(self, levels=levels, tool=tool)
 
     # --- parts ---------------------------------------------------------------------------------
 
@@ -222,15 +239,18 @@ class Coordinates:
     @cached_property
     def top_total(self) -> Array:
         """Sum of the offsets of the innermost level, by channel axis."""
-        return self.top.total(self.axis_count)
+        return self._total(self.top)
+
+    def _total(self, level: Level) -> Array:
+        return level.total(self.axis_count, self.contour)
 
     @cached_property
     def mcs_frame(self) -> Frame:
         """The MCS from the programmed coordinates: every level with its offsets, main axes."""
-        frame = Frame("MCS", "level 0", shift=_main_axes(self.levels[0].total(self.axis_count)))
+        frame = Frame("MCS", "level 0", shift=_main_axes(self._total(self.levels[0])))
         for k, level in enumerate(self.levels[1:], start=1):
             step = Frame(f"level {k - 1}", f"level {k}", level.frame.rotation, level.frame.shift)
-            own = Frame(f"level {k}", f"level {k}", shift=_main_axes(level.total(self.axis_count)))
+            own = Frame(f"level {k}", f"level {k}", shift=_main_axes(self._total(level)))
             frame = frame @ step @ own
         return frame
 
@@ -267,7 +287,7 @@ class Coordinates:
     @cached_property
     def _offset_total(self) -> Array:
         """Per-axis sum of the offsets of all levels; counts for the axes beyond the third."""
-        return np.sum([level.total(self.axis_count) for level in self.levels], axis=0)
+        return np.sum([self._total(level) for level in self.levels], axis=0)
 
     def _affine(self, program: ArrayLike, frame: Frame, total: Array) -> Array:
         result = np.array(program, dtype=float)
@@ -295,19 +315,26 @@ class Coordinates:
         turned[..., 3:6] = turned[..., 3:6] @ rotation.T
         return turned
 
+    @property
+    def _kinematics_alone(self) -> Coordinates:
+        tool = replace(self.tool, axis_offsets=())
+        return replace(self, levels=(BASE_LEVEL,), tool=tool, contour=NO_CONTOUR)
+
     def _steps(self, near: ArrayLike | None) -> Iterator[tuple]:
         """Every layer as name, origin and the function that applies it."""
         n = self.axis_count
+        yield from self.contour.steps()
         for k in range(len(self.levels) - 1, -1, -1):
             level = self.levels[k]
-            for _, offset in level.offsets:
-                yield offset.name, offset.origin, _adder(offset.values)
+            for kind, offset in level.offsets:
+                values = self.contour.shift(kind, offset.values)
+                yield offset.name, offset.origin, _adder(values)
             if k:
                 yield level.name, level.origin, _mover(level.frame, n)
         if self.tool.origin is not None or np.any(self.tool_vector):
             yield "tool", self.tool.origin, _adder(-self.tool_vector)
         if self.kinematics is not None:
-            active = replace(self, levels=(BASE_LEVEL,), tool=replace(self.tool, axis_offsets=()))
+            active = self._kinematics_alone
             yield "kinematics", self.kinematics.origin, _solver(active, near)
 
 

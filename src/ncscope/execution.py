@@ -170,7 +170,7 @@ def _record(recorder: Recorder, before: State, step: Step, block: tree.Block) ->
     for move in step.moves:
         if len(start) != len(move.axes):
             start = move.axes
-        recorder.add(state.coordinates, state.axis_names, move, start)
+        recorder.add(move.coordinates or state.coordinates, state.axis_names, move, start)
         start = move.axes
     if not step.moves:
         recorder.visit(

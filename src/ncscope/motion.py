@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ncscope.coordinates import Coordinates
 from ncscope.diagnostics import Span
 from ncscope.frames import Array
 
@@ -18,6 +19,7 @@ class Move:
 
     motion: `G00` or `G01`. feed: mm or degrees per minute, None where no F was programmed.
     program, axes: (n,) by channel axis, mm and degrees. block: the N number, None without.
+    coordinates: the chain of this motion alone (#SUPPRESS OFFSETS), None for that of the channel.
     """
 
     motion: str
@@ -26,3 +28,4 @@ class Move:
     axes: Array
     block: int | None
     span: Span
+    coordinates: Coordinates | None = None

@@ -11,9 +11,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ncscope.channel import offsets
-from ncscope.channel.commands import COMMANDS
+from ncscope.channel import contour, offsets
+from ncscope.channel.commands import COMMANDS, LAST
 from ncscope.channel.commands.declarations import declare
+from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.state import State
@@ -78,12 +79,16 @@ def _execute(draft: Draft, block: tree.Block) -> None:
     for declaration in block.declarations:
         declare(draft, declaration)
     for command in block.commands:
-        _command(draft, command, block)
+        if command.name not in LAST:
+            _command(draft, command, block)
     # 3. Words from left to right; an assignment acts before the words that follow it.
     words = _collect(draft, block.words)
     # 4. Modal functions, 5. offsets, 6. tool, feed, 7. motion, 8. program end.
     for rule in RULES:
         rule(draft, words)
+    for command in block.commands:
+        if command.name in LAST:
+            _command(draft, command, block)
     _reject_unused(draft, words)
 
 
@@ -111,6 +116,7 @@ def _later(draft: Draft, span: Span, what: str) -> None:
 
 
 def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None:
+    refuse_inside(draft, command)
     row = lookup(command.name)
     if command.name in COMMANDS:
         COMMANDS[command.name](draft, command)
@@ -207,7 +213,7 @@ def _modal(draft: Draft, words: Words) -> None:
         elif number in (90, 91):
             draft.modal(absolute=number == 90)
         elif number in (17, 18, 19):
-            draft.modal(plane=number)
+            contour.plane(draft, number, words.gfunctions[number].span)
             draft.state = offsets.with_tool(draft.state, draft.state.tool)
 
 
@@ -354,6 +360,8 @@ def _reject_unused(draft: Draft, words: Words) -> None:
 RULES: tuple[Callable[[Draft, Words], None], ...] = (
     _refuse_g,
     _modal,
+    contour.mirror,
+    contour.rotation,
     _zero_offset,
     _mask_group,
     _reference_point,

@@ -93,15 +93,20 @@ class Draft:
         except KinematicsError as error:
             self.fail(error.id, span, error.message)
 
-    def move_to(self, program: np.ndarray, span: Span) -> None:
-        """A motion to programmed values (n,), mm and degrees."""
+    def move_to(
+        self, program: np.ndarray, span: Span, coordinates: Coordinates | None = None
+    ) -> None:
+        """A motion to programmed values (n,), mm and degrees; `coordinates` for this one alone."""
         state = self.state
+        chain = coordinates or state.coordinates
         try:
-            axes = state.coordinates.to_axes(program, near=state.position.axes)
+            axes = chain.to_axes(program, near=state.position.axes)
+            shown = program if coordinates is None else state.coordinates.to_program(axes)
         except KinematicsError as error:
             self.fail(error.id, span, error.message)
         if not np.all(np.isfinite(axes)):
             self.fail("21883", span, "the axis position is too large to be computed")
-        self.state = replace(state, position=Position(axes, program))
+        self.state = replace(state, position=Position(axes, shown))
         modes = state.modal
-        self.moves.append(Move(modes.motion, modes.feed, program, axes, state.block, span))
+        move = Move(modes.motion, modes.feed, program, axes, state.block, span, coordinates)
+        self.moves.append(move)

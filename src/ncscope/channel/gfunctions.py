@@ -1,7 +1,7 @@
 """Every G function: its modal group, the control's id for two of a group, and what it does here.
 
-`effect` is `motion`, `modal`, `offset`, `quiet` (no effect on positions, noted once) or `later`
-(moves positions and is refused by name).
+`effect` is `motion`, `modal`, `contour`, `offset`, `quiet` (no effect on positions, noted
+once) or `later` (moves positions and is refused by name).
 Source: nc_language sheet section 8; P-CHAN-00063 modal groups.
 """
 
@@ -42,15 +42,15 @@ def _rows() -> dict[int, GFunction]:
     add("5 10 11 12 13 25 26 138 139 140 141 236 237 238 239", None, None, "quiet",
         "behaviour of the cutter radius compensation")
     add("17 18 19", "plane", "20111", "modal", "working plane")
-    add("20", "mirror", "20112", "quiet", "mirror off")
-    add("21 22 23 351", "mirror", "20112", "later", "mirror")
+    add("20", "mirror", "20112", "contour", "mirror off")
+    add("21 22 23 351", "mirror", "20112", "contour", "mirror")
     add("51", "diameter", "20115", "later", "diameter programming")
     add("52", "diameter", "20115", "quiet", "diameter programming off")
     add("53 54 55 56 57 58 59 159", "zero", "20116", "offset", "zero offset")
     add("60 61 260 261 359 360", "exact stop", "20117", "quiet", "exact stop and contouring")
     add("166 167", "override", None, "quiet", "override fixed at 100 %")
-    add("68", "rotation", None, "later", "contour rotation")
-    add("69", "rotation", None, "quiet", "contour rotation off")
+    add("68", "rotation", None, "contour", "contour rotation")
+    add("69", "rotation", None, "contour", "contour rotation off")
     add("70 71", "unit", "20118", "modal", "inches or millimetres")
     add(" ".join(map(str, [*range(80, 90), *range(800, 840)])), "cycle", "20119", "later",
         "implicit subprogram call")

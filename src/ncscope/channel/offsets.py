@@ -67,11 +67,13 @@ def preset(state: State, values: Mapping[int, float], place: str) -> State:
     """#PSET: the present position of these axes reads `values` from now on.
 
     The old preset is replaced, not accumulated: it already counts in the present value.
+    Neither a contour rotation nor a mirror may be active; a scale may.
     """
     held = state.coordinates.top.offset("pset")
     shown = state.position.program
+    factors = state.coordinates.contour.factors(len(state.axes))
     new = {
-        axis: (held.values[axis] if held else 0.0) + float(shown[axis]) - value
+        axis: (held.values[axis] if held else 0.0) + float(factors[axis] * (shown[axis] - value))
         for axis, value in values.items()
     }
     return set_offsets(state, "pset", "#PSET", new, place)
@@ -79,28 +81,41 @@ def preset(state: State, values: Mapping[int, float], place: str) -> State:
 
 def select_tool(state: State, index: int, record: Tool, place: str) -> State:
     """The tool data record `index` (D word); 0 is no tool."""
-    return with_tool(
-        state, replace(state.tool, record_index=index, record=record, selected_at=place)
-    )
+    suspended = state.suspended
+    if suspended is not None and not suspended.ex_tool:
+        state = replace(state, suspended=replace(suspended, tool_acts=True))
+    tool = replace(state.tool, record_index=index, record=record, selected_at=place)
+    return with_tool(state, tool)
 
 
 def with_tool(state: State, tool: SelectedTool) -> State:
-    """The state in which `tool` acts, by the plane and settings that are valid now."""
+    """The state in which `tool` acts, by the plane and settings that are valid now.
+
+    Inside #MCS it acts only where a D word stood there.
+    """
+    state = replace(state, tool=tool)
+    if state.suspended is not None and not state.suspended.tool_acts:
+        return state
+    coordinates = replace(state.coordinates, tool=active_tool(state))
+    if coordinates.tool == state.coordinates.tool:
+        return state
+    fixed = tool.record.fixed or state.coordinates.tool.fixed
+    simple = coordinates.kinematics is None and not fixed
+    return state.with_coordinates(coordinates, keep="level" if simple else "axes")
+
+
+def active_tool(state: State) -> ActiveTool:
+    """The selected tool as it acts in the plane that is valid now."""
+    tool = state.tool
     record = tool.record
     n = len(state.axes)
-    active = ActiveTool(
+    return ActiveTool(
         length=record.length,
         axis_offsets=tuple(record.axis_offsets.get(i, 0.0) for i in range(n)),
         direction=_tool_direction(state, record),
         fixed=record.fixed,
         origin=", ".join(dict.fromkeys(p for p in (record.origin, tool.selected_at) if p)) or None,
     )
-    coordinates = replace(state.coordinates, tool=active)
-    state = replace(state, tool=tool)
-    if coordinates.tool == state.coordinates.tool:
-        return state
-    simple = coordinates.kinematics is None and not (record.fixed or state.coordinates.tool.fixed)
-    return state.with_coordinates(coordinates, keep="level" if simple else "axes")
 
 
 def _tool_direction(state: State, record: Tool) -> tuple[float, float, float]:

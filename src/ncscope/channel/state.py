@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from ncscope.contour import Turn
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
 from ncscope.kinematics.parameters import KinematicParameters
@@ -45,8 +46,12 @@ class Position:
 
 @dataclass(frozen=True, slots=True)
 class SystemDefinition:
-    """A stored `#CS DEF`: shift mm and angles degrees, relative to the level it is used on."""
+    """A stored `#CS DEF`: shift mm and angles degrees, relative to the level it is used on.
 
+    kind: `#CS`, `#ACS` or `#BCS`; each counts its own ids.
+    """
+
+    kind: str
     id: int
     values: tuple[float, ...]
     origin: str
@@ -72,6 +77,27 @@ class Kinematics:
 
 
 @dataclass(frozen=True, slots=True)
+class SystemMode:
+    """What #CS MODE set; None stands for the channel parameter (P-CHAN-00393, P-CHAN-00394)."""
+
+    sequence: str | None = None
+    fixed: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Suspended:
+    """What #MCS OFF brings back: coordinates and zero offset group at #MCS ON.
+
+    ex_tool: a D word inside does not act before #MCS OFF. tool_acts: a D word inside acts.
+    """
+
+    coordinates: Coordinates
+    zero_index: int
+    ex_tool: bool = False
+    tool_acts: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Stored:
     """One user variable: a number, a text, or an array with its dimensions."""
 
@@ -85,8 +111,11 @@ class State:
     """Everything that a block may read or change.
 
     axes: the channel configuration. variables: `P5`, `V.P.NAME` -> value. definitions: stored
-    coordinate systems by id, in the order of their definition. parked: positions of axes that
-    left the channel, by logical number. message_file: where #MSG SAVE writes.
+    coordinate systems by kind (`#CS`, `#ACS`, `#BCS`) and id, in the order of their definition.
+    parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
+    values that were programmed last for #ROTATION and #SCALE, by channel index. suspended: what
+    waits while #MCS is on.
+    message_file: where #MSG SAVE writes.
     """
 
     axes: tuple[Axis, ...]
@@ -99,9 +128,13 @@ class State:
     zero_index: int = 0
     clamp_index: int = 0
     variables: Mapping[str, Stored] = field(default_factory=dict)
-    definitions: Mapping[int, SystemDefinition] = field(default_factory=dict)
+    definitions: Mapping[tuple[str, int], SystemDefinition] = field(default_factory=dict)
     macros: Mapping[str, str] = field(default_factory=dict)
     parked: Mapping[int, float] = field(default_factory=dict)
+    turn: Turn = field(default_factory=Turn)
+    scale_factors: Mapping[int, float] = field(default_factory=dict)
+    suspended: Suspended | None = None
+    system_mode: SystemMode = field(default_factory=SystemMode)
     message_file: str = "message.txt"
     block: int | None = None
 

@@ -369,6 +369,13 @@ def _absolute(draft: Draft, ref: Reference) -> float:
     return draft.shown(ref.axis, float(level[ref.axis]))
 
 
+def _on_machine_axes(draft: Draft, ref: Reference) -> float:
+    """V.A.PROG: the programmed value after scale, contour rotation and mirror."""
+    state = draft.state
+    values = state.coordinates.contour.apply(state.position.program)
+    return draft.shown(ref.axis, float(values[ref.axis]))
+
+
 def _programmed(draft: Draft, ref: Reference) -> float:
     return draft.shown(ref.axis, float(draft.state.position.program[ref.axis]))
 
@@ -422,10 +429,22 @@ VARIABLES: dict[str, Row] = {
     "V.G.D_AKT": Row(_plain(lambda d: d.state.tool.record_index), None, "tool data of the last D"),
     "V.G.AKT_PLATZ": Row(_plain(lambda d: d.state.clamp_index), None, "clamp position"),
     "V.G.MASS_MM": Row(_plain(lambda d: float(d.modes.inch)), None, "0 in millimetres"),
+    "V.G.ROT_ACTIVE": Row(
+        _plain(lambda d: float(d.state.coordinates.contour.turn is not None)),
+        None,
+        "1 while a contour rotation is active",
+    ),
+    "V.G.ROT_ANGLE": Row(_plain(lambda d: d.state.turn.angle), None, "contour rotation: angle"),
+    "V.G.ROT_CENTER1": Row(
+        _length(lambda d: d.state.turn.centre[0]), None, "contour rotation: centre, first axis"
+    ),
+    "V.G.ROT_CENTER2": Row(
+        _length(lambda d: d.state.turn.centre[1]), None, "contour rotation: centre, second axis"
+    ),
     "V.G.BLOCK_NR": Row(_plain(lambda d: d.state.block or 0), None, "block number"),
     "V.G.FEEDRATE": Row(_length(lambda d: d.modes.feed or 0.0), None, "programmed feed"),
     **_axis_rows("V.A.ABS", Row(_absolute, None, "absolute value in the innermost system")),
-    **_axis_rows("V.A.PROG", Row(_programmed, None, "programmed value")),
+    **_axis_rows("V.A.PROG", Row(_on_machine_axes, None, "programmed value")),
     **_axis_rows("V.A.MENT", Row(_programmed, None, "programmed value before mirroring")),
     **_axis_rows("V.A.ACT_POS", Row(_programmed, None, "present value without offsets")),
     **_axis_rows("V.A.ACS.ABS", Row(_machine_axis, None, "axis position")),

@@ -4,14 +4,27 @@ Commands without effect on positions and commands that are refused stand in the 
 `language.commands`; what is in neither is unknown.
 """
 
-from ncscope.channel.commands import axes, messages, preset, systems, transformation
+from ncscope.channel.commands import (
+    axes,
+    contour,
+    machine_system,
+    messages,
+    preset,
+    systems,
+    transformation,
+)
 from ncscope.channel.commands import declarations as declared
 
 COMMANDS = {
     **systems.COMMANDS,
     **preset.COMMANDS,
+    **machine_system.COMMANDS,
+    **contour.COMMANDS,
     **transformation.COMMANDS,
     **axes.COMMANDS,
     **messages.COMMANDS,
     **declared.COMMANDS,
 }
+
+LAST = frozenset({"SUPPRESS OFFSETS"})
+"""Commands that move: they act after the words of their block, such as G90, G01 and F."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -26,6 +27,8 @@ def set_ax(draft: Draft, command: tree.HashCommand) -> None:
             "axes cannot be exchanged while a transformation is active",
             "switch it off first (#TRAFO OFF)",
         )
+    if draft.state.suspended is not None:
+        draft.fail("N2001", command.span, "#SET AX while #MCS is active is not supported yet")
     groups = [g for g in command.groups if not _is_option(draft, g)]
     if not groups:
         draft.fail("20480", command.span, "#SET AX needs axes", _FORM)
@@ -104,15 +107,21 @@ def _with_axes(state: State, axes: tuple[Axis, ...]) -> State:
     sources = [old.get(axis.number) for axis in axes]
     position = np.array([parked.get(axis.number, 0.0) for axis in axes])
     levels = tuple(_moved_level(level, sources) for level in state.coordinates.levels)
-    coordinates = replace(state.coordinates, axis_count=len(axes), levels=levels)
+    contour = state.coordinates.contour.moved(sources)
+    coordinates = replace(state.coordinates, axis_count=len(axes), levels=levels, contour=contour)
     state = replace(
         state,
+        scale_factors=_moved_factors(state.scale_factors, sources),
         axes=axes,
         coordinates=coordinates,
         parked=parked,
         position=Position(position, coordinates.to_program(position)),
     )
     return offsets.with_tool(state, state.tool)
+
+
+def _moved_factors(factors: Mapping[int, float], sources: list[int | None]) -> dict[int, float]:
+    return {i: factors[s] for i, s in enumerate(sources) if s is not None and s in factors}
 
 
 def _moved_level(level: Level, sources: list[int | None]) -> Level:

@@ -13,12 +13,27 @@ def pset(draft: Draft, command: tree.HashCommand) -> None:
     words = axis_values(draft, command.words)
     if not words:
         draft.fail("N1005", command.span, "#PSET needs an axis and its new position")
+    _check_contour(draft, command)
     values = {axis: draft.length(axis, value) for axis, (value, _) in words.items()}
     draft.state = offsets.preset(draft.state, values, draft.place)
 
 
+def _check_contour(draft: Draft, command: tree.HashCommand) -> None:
+    _check_mirror(draft, command)
+    if draft.state.coordinates.contour.turn is not None:
+        what = "#PSET under a contour rotation is not modelled"
+        draft.fail("N2005", command.span, what, "switch it off first (#ROTATION OFF or G69)")
+
+
+def _check_mirror(draft: Draft, command: tree.HashCommand) -> None:
+    if draft.state.coordinates.contour.mirror:
+        what = f"#{command.name} is not allowed while a mirror is active"
+        draft.fail("20612", command.span, what, "switch the mirror off first (G20, or G351 X1)")
+
+
 def preset(draft: Draft, command: tree.HashCommand) -> None:
     """#PRESET: all axes; #PRESET X0: X, its value does not matter."""
+    _check_mirror(draft, command)
     words = axis_values(draft, command.words)
     axes = frozenset(words) or frozenset(range(len(draft.state.axes)))
     draft.state = offsets.clear_preset(draft.state, axes)
