@@ -142,7 +142,6 @@ def test_out_that_cannot_be_written() -> None:
     assert call("run", path, "--out", "table.txt").exit_code == 2
 
 
-@pytest.mark.xfail(strict=True, reason="--out writes over the program")
 def test_out_never_overwrites_the_program() -> None:
     path = program(GOOD)
     assert call("run", path, "--format", "csv", "--out", path).exit_code == 2
@@ -256,7 +255,6 @@ def test_message_file_that_is_a_link(in_empty_folder: Path) -> None:
     assert result.exit_code == 1 and "N4003" in result.stdout
 
 
-@pytest.mark.xfail(strict=True, reason="a hard link of the program is appended to")
 def test_message_never_overwrites_a_hard_link_of_the_program(in_empty_folder: Path) -> None:
     path = program('#MSG SAVE EXCLUSIVE ["hi"]\nM30\n')
     before = path.read_text()

@@ -53,6 +53,7 @@ CATALOGUE: dict[str, Entry] = {
     "292040": Entry("error", "Types or indices of the kinematic axes are not allowed."),
     "292045": Entry("error", "The programming mode is not supported."),
     # Language
+    "20010": Entry("error", "The function needs one more axis."),
     "20105": Entry("error", "A block has two block numbers."),
     "20108": Entry("error", "Two G functions of the motion group stand in one block."),
     "20111": Entry("error", "Two plane selections stand in one block."),

@@ -99,6 +99,8 @@ def run_command(
     from ncscope.views.message_files import write_messages
 
     shape = _format(format, out)
+    if out is not None and out.exists() and program.exists() and out.samefile(program):
+        _fail(f"--out {out} is the program itself")
     options = Options(clamp, _levels(skip), max_blocks, strict)
     result, found, _ = _run(program, machine, options, strict)
     found = [d for d in found if d.severity != "note"]

@@ -126,7 +126,8 @@ class _Loop:
         if not self.options.bulk or reader.in_area:
             return
         if self.scanner is None:
-            self.scanner = Scanner(self.source.data, self.state.axis_names)
+            names = (a.name if a.modulo_range is None else "" for a in self.state.axes)
+            self.scanner = Scanner(self.source.data, tuple(names))
         while True:
             rows = self.scanner.scan(reader.at, self.source.position(reader.at)[0])
             left = self.options.max_blocks - self.count if self.options.max_blocks else len(rows)

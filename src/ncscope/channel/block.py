@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ncscope.channel import contour, offsets
+from ncscope.channel import contour, offsets, tools
 from ncscope.channel.commands import COMMANDS, LAST
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
@@ -49,6 +49,7 @@ class Words:
     gfunctions: dict[int, tree.GWord] = field(default_factory=dict)
     values: dict[int, float] = field(default_factory=dict)
     axes: dict[int, tuple[float, Span]] = field(default_factory=dict)
+    signed: set[int] = field(default_factory=set)
     addresses: dict[str, tuple[float, Span]] = field(default_factory=dict)
     mfunctions: dict[int, Span] = field(default_factory=dict)
 
@@ -151,7 +152,9 @@ def _collect(draft: Draft, words: tuple[tree.Word, ...]) -> Words:
             case tree.AddressWord():
                 _collect_address(draft, collected, word)
             case tree.AxisWord():
-                collect_axes(draft, collected.axes, word)
+                axis = collect_axes(draft, collected.axes, word)
+                if word.sign:
+                    collected.signed.add(axis)
             case tree.SpindleWord():
                 draft.warn("N2002", word.span, f"spindle word {word.name} does not move an axis")
     return collected
@@ -188,6 +191,9 @@ def _collect_address(draft: Draft, collected: Words, word: tree.AddressWord) -> 
         )
     collected.addresses[word.letter] = (evaluate_number(draft, word.value), word.span)
 
+
+KNOWN_M = frozenset((0, 1, 2, 3, 4, 5, 19, 30))
+"""Stops, program end and spindle: without effect on positions beyond any doubt."""
 
 # --- rules: each takes the words it owns -------------------------------------------------------
 
@@ -284,28 +290,7 @@ def _tool(draft: Draft, words: Words) -> None:
         if draft.machine.settings.tool_with_t and record is None:
             record = place
     if record is not None:
-        _select_tool(draft, round(record[0]), record[1])
-
-
-def _select_tool(draft: Draft, index: int, span: Span) -> None:
-    before = draft.state
-    if index == 0:
-        draft.state = offsets.select_tool(draft.state, 0, offsets.Tool(), draft.place)
-    else:
-        tool = draft.machine.tools.get(index)
-        if tool is None:
-            has = " ".join(f"D{i}" for i in sorted(draft.machine.tools)) or "no tool data at all"
-            draft.fail("20172", span, f"tool data D{index} does not exist; the lists have {has}")
-        if not tool.valid:
-            draft.fail(
-                "20691",
-                span,
-                f"tool data D{index} is not valid",
-                f"set wz[{index}].gueltig to 1 ({tool.origin})",
-            )
-        draft.state = offsets.select_tool(draft.state, index, tool, draft.place)
-    if draft.machine.settings.tool_moves_at_once and before.coordinates.kinematics is None:
-        draft.move_to(before.position.program, span)
+        tools.select(draft, round(record[0]), record[1])
 
 
 def _technology(draft: Draft, words: Words) -> None:
@@ -315,10 +300,26 @@ def _technology(draft: Draft, words: Words) -> None:
             draft.fail("20176", feed[1], "the feed must be greater than 0")
         draft.modal(feed=feed[0] * draft.modes.length_factor)
     for letter in ("S", "E", "H"):
-        words.addresses.pop(letter, None)
+        word = words.addresses.pop(letter, None)
+        if letter == "E" and word is not None:
+            _end_feed(draft, *word)
     for number, span in words.mfunctions.items():
         if number in (17, 29):
             _later(draft, span, f"M{number} (return from a subprogram)")
+        elif number not in KNOWN_M:
+            draft.warn("N2002", span, f"M{number:02d} is taken as without effect on positions")
+
+
+def _end_feed(draft: Draft, value: float, span: Span) -> None:
+    """E is the feed at the end of the block, never an exponent."""
+    if value <= 0:
+        draft.fail(
+            "20176",
+            span,
+            "the feed at the block end (E) must be greater than 0",
+            "numbers have no exponent here: write 0.001 for 1E-3",
+        )
+    draft.warn("N2002", span, "E (feed at the block end) has no effect on positions")
 
 
 def _centre_words(draft: Draft, words: Words) -> None:
@@ -336,12 +337,26 @@ def _motion(draft: Draft, words: Words) -> None:
     for axis, (value, _span) in words.axes.items():
         length = draft.length(axis, value)
         program[axis] = length if modes.absolute else program[axis] + length
+        _check_modulo(draft, axis, words, float(program[axis]))
     span = next(iter(words.axes.values()))[1]
     if modes.motion == "G01" and modes.feed is None and not modes.feed_warned:
         draft.warn("20008", span, "a feed motion is programmed without a feed (F)")
         draft.modal(feed_warned=True)
     draft.move_to(program, span)
     words.axes.clear()
+
+
+def _check_modulo(draft: Draft, axis: int, words: Words, value: float) -> None:
+    """On a modulo axis a sign is a turning direction, and values wrap; neither is modelled, so
+    only values for which it makes no difference pass."""
+    limits = draft.state.axes[axis].modulo_range
+    if limits is None:
+        return
+    signed = draft.modes.absolute and axis in words.signed
+    if signed or not limits[0] <= value < limits[1]:
+        name = draft.state.axes[axis].name
+        what = "a sign" if signed else f"a value outside {limits[0]:g} to {limits[1]:g} degrees"
+        _later(draft, words.axes[axis][1], f"{what} on the modulo axis {name}")
 
 
 def _end(draft: Draft, words: Words) -> None:

@@ -12,12 +12,13 @@ from ncscope.language import tree
 PRESET_NAMES = ("PSET", "PRESET")
 
 
-def collect_axes(draft: Draft, axes: dict[int, tuple[float, Span]], word: tree.AxisWord) -> None:
-    """Adds the word to `axes`; fails for an unknown axis or a second value of one axis."""
+def collect_axes(draft: Draft, axes: dict[int, tuple[float, Span]], word: tree.AxisWord) -> int:
+    """Adds the word to `axes` and returns its axis; fails for an unknown axis or a second value."""
     axis = draft.axis_index(word.name, word.span)
     if axis in axes:
         draft.fail("20203", word.span, f"the block has two values for axis {word.name}")
     axes[axis] = (evaluate_number(draft, word.value), word.span)
+    return axis
 
 
 def axis_values(draft: Draft, words: Iterable[tree.Word]) -> dict[int, tuple[float, Span]]:

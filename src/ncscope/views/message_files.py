@@ -22,10 +22,10 @@ def write_messages(
         if message.file is not None:
             texts.setdefault(safe_name(message.file), []).append(message.text + message.end)
     found: list[Diagnostic] = []
-    guarded = {p.resolve() for p in protected}
+    guarded = [p for p in protected if p.exists()]
     for name, parts in texts.items():
         target = folder / name
-        if target.is_symlink() or target.resolve() in guarded or target.is_dir():
+        if target.is_symlink() or target.is_dir() or _is_one_of(target, guarded):
             found.append(
                 diagnostic("N4003", None, f"{name} is not written: it is a link, a folder or a "
                            "file of this run")
@@ -38,6 +38,11 @@ def write_messages(
         except OSError as error:
             found.append(diagnostic("N4003", None, f"{name} cannot be written: {error.strerror}"))
     return tuple(found)
+
+
+def _is_one_of(target: Path, files: list[Path]) -> bool:
+    """Whether the path is one of the files, also under another name (a hard link)."""
+    return target.exists() and any(target.samefile(file) for file in files)
 
 
 def safe_name(name: str) -> str:

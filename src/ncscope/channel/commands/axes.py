@@ -44,6 +44,13 @@ def set_ax(draft: Draft, command: tree.HashCommand) -> None:
             "the indices of the axes have a gap; that is not supported",
             f"number them from 0 to {len(placed) - 1}",
         )
+    if len(placed) < 3 and len(draft.state.coordinates.levels) > 1:
+        draft.fail(
+            "20010",
+            command.span,
+            "an active coordinate system needs three main axes",
+            "switch it off first (#CS OFF)",
+        )
     draft.state = _with_axes(draft.state, tuple(placed[i] for i in sorted(placed)))
 
 

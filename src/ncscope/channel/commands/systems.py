@@ -232,6 +232,7 @@ def _activate(draft: Draft, span: Span, definition: SystemDefinition) -> None:
     kind = definition.kind
     if len(_active(draft, kind)) >= MAX_LEVELS:
         draft.fail("20826", span, f"only {MAX_LEVELS} coordinate systems can be linked")
+    _check_axes(draft, span, kind)
     coordinates = draft.state.coordinates
     rank = ORDER.index(kind)
     place = sum(ORDER.index(level.kind) <= rank for level in coordinates.levels)
@@ -245,6 +246,12 @@ def _activate(draft: Draft, span: Span, definition: SystemDefinition) -> None:
     )
     levels = (*coordinates.levels[:place], level, *coordinates.levels[place:])
     draft.set_coordinates(replace(coordinates, levels=levels), span)
+
+
+def _check_axes(draft: Draft, span: Span, kind: str) -> None:
+    n = len(draft.state.axes)
+    if n < 3:
+        draft.fail("20010", span, f"{kind} needs three main axes; the channel has {n}")
 
 
 def _frame(draft: Draft, definition: SystemDefinition) -> Frame:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ncscope.channel.draft import Draft
+from ncscope.channel.tools import with_tool_parameters
 from ncscope.channel.variables import evaluate_number
 from ncscope.coordinates import ActiveKinematics
 from ncscope.diagnostics import Span
@@ -56,6 +57,7 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     if draft.state.coordinates.kinematics is not None:
         return
     parameters = _parameters(draft, command.span, held.selected)
+    parameters = with_tool_parameters(parameters, draft.state.tool.record)
     settings = draft.machine.settings
     names = draft.state.axis_names
     for fault in validate(parameters, len(names), settings.orientation_mode, names):
