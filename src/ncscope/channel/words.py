@@ -21,10 +21,19 @@ def collect_axes(draft: Draft, axes: dict[int, tuple[float, Span]], word: tree.A
     return axis
 
 
-def axis_values(draft: Draft, words: Iterable[tree.Word]) -> dict[int, tuple[float, Span]]:
-    """The axis words of a # command; any other word fails."""
+def axis_values(
+    draft: Draft, words: Iterable[tree.Word], name: str = ""
+) -> dict[int, tuple[float, Span]]:
+    """The axis words of the # command `name`; any other word fails."""
     axes: dict[int, tuple[float, Span]] = {}
     for word in words:
+        if isinstance(word, tree.GWord) and name in PRESET_NAMES:
+            draft.fail(
+                "20607",
+                word.span,
+                f"#{name} cannot stand in a block with G functions",
+                "write it in a block of its own",
+            )
         if not isinstance(word, tree.AxisWord):
             draft.fail("N1005", word.span, "only axis words can stand here")
         collect_axes(draft, axes, word)

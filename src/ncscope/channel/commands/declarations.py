@@ -19,7 +19,8 @@ def declare(draft: Draft, item: tree.Declaration) -> None:
 
 
 def area(draft: Draft, command: tree.HashCommand) -> None:
-    """#VAR and #ENDVAR do nothing themselves; the lines between them declare."""
+    """#VAR, #ENDVAR, #COMMENT BEGIN and #COMMENT END do nothing themselves: the language has
+    read the lines between them."""
 
 
 def delete(draft: Draft, command: tree.HashCommand) -> None:
@@ -41,6 +42,8 @@ def clear_macros(draft: Draft, command: tree.HashCommand) -> None:
 
 
 COMMANDS = {
+    "COMMENT BEGIN": area,
+    "COMMENT END": area,
     "VAR": area,
     "ENDVAR": area,
     "DELETE": delete,

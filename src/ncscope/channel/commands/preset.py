@@ -10,7 +10,7 @@ from ncscope.language import tree
 
 def pset(draft: Draft, command: tree.HashCommand) -> None:
     """#PSET X20: the present position of X is 20; G91 has no influence."""
-    words = axis_values(draft, command.words)
+    words = axis_values(draft, command.words, command.name)
     if not words:
         draft.fail("N1005", command.span, "#PSET needs an axis and its new position")
     _check_contour(draft, command)
@@ -34,7 +34,7 @@ def _check_mirror(draft: Draft, command: tree.HashCommand) -> None:
 def preset(draft: Draft, command: tree.HashCommand) -> None:
     """#PRESET: all axes; #PRESET X0: X, its value does not matter."""
     _check_mirror(draft, command)
-    words = axis_values(draft, command.words)
+    words = axis_values(draft, command.words, command.name)
     axes = frozenset(words) or frozenset(range(len(draft.state.axes)))
     draft.state = offsets.clear_preset(draft.state, axes)
 

@@ -252,6 +252,13 @@ def _check_axes(draft: Draft, span: Span, kind: str) -> None:
     n = len(draft.state.axes)
     if n < 3:
         draft.fail("20010", span, f"{kind} needs three main axes; the channel has {n}")
+    if n > 3 and not draft.machine.settings.offsets_per_level:
+        draft.fail(
+            "N2001",
+            span,
+            f"{kind} with one common offset for the axes beyond the third "
+            "(axes_offsets_layer_specific 0, P-CHAN-00397) is not supported",
+        )
 
 
 def _frame(draft: Draft, definition: SystemDefinition) -> Frame:
