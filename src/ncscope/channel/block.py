@@ -19,7 +19,7 @@ from ncscope.channel.draft import BlockError, Draft, Message
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.state import State
 from ncscope.channel.variables import evaluate_number, write_variable
-from ncscope.channel.words import collect_axes
+from ncscope.channel.words import collect_axes, refuse_path_condition
 from ncscope.diagnostics import Diagnostic, Span
 from ncscope.language import tree
 from ncscope.language.commands import lookup
@@ -81,7 +81,7 @@ def _execute(draft: Draft, block: tree.Block) -> None:
         declare(draft, declaration)
     for command in block.commands:
         if command.name not in LAST:
-            _command(draft, command)
+            _command(draft, command, block)
     # 3. Words from left to right; an assignment acts before the words that follow it.
     words = _collect(draft, block.words)
     # 4. Modal functions, 5. offsets, 6. tool, feed, 7. motion, 8. program end.
@@ -89,7 +89,7 @@ def _execute(draft: Draft, block: tree.Block) -> None:
         rule(draft, words)
     for command in block.commands:
         if command.name in LAST:
-            _command(draft, command)
+            _command(draft, command, block)
     _reject_unused(draft, words)
 
 
@@ -116,8 +116,9 @@ def _later(draft: Draft, span: Span, what: str) -> None:
     )
 
 
-def _command(draft: Draft, command: tree.HashCommand) -> None:
+def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None:
     refuse_inside(draft, command)
+    refuse_path_condition(draft, command.name, block.words)
     row = lookup(command.name)
     if command.name in COMMANDS:
         COMMANDS[command.name](draft, command)

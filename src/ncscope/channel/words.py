@@ -26,6 +26,17 @@ def axis_values(
 ) -> dict[int, tuple[float, Span]]:
     """The axis words of the # command `name`; any other word fails."""
     axes: dict[int, tuple[float, Span]] = {}
+    words = tuple(words)
+    refuse_path_condition(draft, name, words)
+    for word in words:
+        if not isinstance(word, tree.AxisWord):
+            draft.fail("N1005", word.span, "only axis words can stand here")
+        collect_axes(draft, axes, word)
+    return axes
+
+
+def refuse_path_condition(draft: Draft, name: str, words: Iterable[tree.Word]) -> None:
+    """#PSET and #PRESET cannot stand in a block with G functions."""
     for word in words:
         if isinstance(word, tree.GWord) and name in PRESET_NAMES:
             draft.fail(
@@ -34,7 +45,3 @@ def axis_values(
                 f"#{name} cannot stand in a block with G functions",
                 "write it in a block of its own",
             )
-        if not isinstance(word, tree.AxisWord):
-            draft.fail("N1005", word.span, "only axis words can stand here")
-        collect_axes(draft, axes, word)
-    return axes
