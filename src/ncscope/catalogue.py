@@ -176,7 +176,9 @@ CATALOGUE: dict[str, Entry] = {
     "N2020": Entry("error", "The scale factors are not allowed, or are changed while they act."),
     "N2021": Entry("error", "G20 to G23 and G351 together are not modelled."),
     "N2022": Entry("error", "A contour rotation inside #MCS is not modelled."),
-    "N2023": Entry("warning", "#MCS ON while it is on, or #MCS OFF while it is off, has no effect."),
+    "N2023": Entry("warning", "A second #MCS ON, or #MCS OFF without #MCS ON, has no effect."),
+    "N2024": Entry("note", "No probe answers; the measuring run goes to its target."),
+    "N2025": Entry("error", "A measuring offset that does not exist cannot be included or ended."),
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),

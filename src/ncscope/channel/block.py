@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ncscope.channel import contour, offsets
+from ncscope.channel import contour, measuring, offsets
 from ncscope.channel.commands import COMMANDS, LAST
 from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
@@ -328,8 +328,10 @@ def _centre_words(draft: Draft, words: Words) -> None:
 
 
 def _motion(draft: Draft, words: Words) -> None:
+    if 100 in words.gfunctions:
+        return _measure(draft, words)
     if not words.axes:
-        return
+        return None
     modes = draft.modes
     program = np.array(draft.state.position.program)
     for axis, (value, _span) in words.axes.items():
@@ -341,6 +343,19 @@ def _motion(draft: Draft, words: Words) -> None:
         draft.modal(feed_warned=True)
     draft.move_to(program, span)
     words.axes.clear()
+    return None
+
+
+def _measure(draft: Draft, words: Words) -> None:
+    """G100 X100: a feed motion to the target, where the probe triggers."""
+    word = words.gfunctions.pop(100)
+    if not words.axes:
+        draft.fail("N2025", word.span, "G100 needs at least one axis with its target")
+    axes, motion = tuple(words.axes), draft.modes.motion
+    draft.modal(motion="G01")
+    _motion(draft, words)
+    draft.modal(motion=motion)
+    measuring.record(draft, axes, word.span)
 
 
 def _end(draft: Draft, words: Words) -> None:
@@ -364,6 +379,7 @@ RULES: tuple[Callable[[Draft, Words], None], ...] = (
     _zero_offset,
     _mask_group,
     _reference_point,
+    measuring.offset,
     _tool,
     _technology,
     _centre_words,

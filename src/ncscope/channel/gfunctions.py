@@ -60,8 +60,9 @@ def _rows() -> dict[int, GFunction]:
     add("96 97 196", "speed", "20122", "quiet", "meaning of S")
     add("112 115 116 117 127 128 129 130 131 132 133 134 135 136 137 230 231 232 233 333 334 "
         "335 336 337 338 339", None, None, "quiet", "dynamics, weights and feedforward")
-    add("100 106 107 108 310", "measuring", "20123", "later", "measuring run")
-    add("101 102", "measuring", "20123", "later", "measured offset")
+    add("100", "measuring", "20123", "motion", "measuring run")
+    add("106 107 108 310", "measuring", "20123", "later", "measuring run")
+    add("101 102", "measuring", "20123", "offset", "measured offset")
     add("150", None, None, "quiet", "spline off")
     add("151", None, None, "later", "spline")
     add("161 162", "centre", "20127", "quiet", "circle centre absolute or relative")

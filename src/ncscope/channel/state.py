@@ -98,6 +98,14 @@ class Suspended:
 
 
 @dataclass(frozen=True, slots=True)
+class Measured:
+    """A measured position and its difference to the target of G100; mm or degrees."""
+
+    value: float
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Stored:
     """One user variable: a number, a text, or an array with its dimensions."""
 
@@ -112,8 +120,9 @@ class State:
 
     axes: the channel configuration. variables: `P5`, `V.P.NAME` -> value. definitions: stored
     coordinate systems by kind (`#CS`, `#ACS`, `#BCS`) and id, in the order of their definition.
-    parked: positions of axes that left the channel, by logical number. turn, scale_factors: the values that were programmed last
-    for #ROTATION and #SCALE, by channel index. suspended: what waits while #MCS is on.
+    parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
+    values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
+    #MCS is on. measured: what G100 measured, by axis name.
     message_file: where #MSG SAVE writes.
     """
 
@@ -134,6 +143,7 @@ class State:
     scale_factors: Mapping[int, float] = field(default_factory=dict)
     suspended: Suspended | None = None
     system_mode: SystemMode = field(default_factory=SystemMode)
+    measured: Mapping[str, Measured] = field(default_factory=dict)
     message_file: str = "message.txt"
     block: int | None = None
 

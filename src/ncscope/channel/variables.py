@@ -400,6 +400,18 @@ def _offset_reader(kind: str) -> Callable[[Draft, Reference], float]:
     return read
 
 
+def _measured(field: str) -> Callable[[Draft, Reference], float]:
+    def read(draft: Draft, ref: Reference) -> float:
+        held = draft.state.measured.get(draft.state.axis_names[ref.axis])
+        return draft.shown(ref.axis, getattr(held, field)) if held else 0.0
+
+    return read
+
+
+def _was_measured(draft: Draft, ref: Reference) -> float:
+    return float(draft.state.axis_names[ref.axis] in draft.state.measured)
+
+
 def _length(value: Callable[[Draft], float]) -> Callable[[Draft, Reference], float]:
     return lambda draft, ref: value(draft) / draft.modes.length_factor
 
@@ -455,6 +467,10 @@ VARIABLES: dict[str, Row] = {
     **_axis_rows("V.A.ACT_POS", Row(_programmed, None, "present value without offsets")),
     **_axis_rows("V.A.ACS.ABS", Row(_machine_axis, None, "axis position")),
     **_axis_rows("V.A.BZP", Row(_offset_reader("g92"), None, "reference point offset (G92)")),
+    **_axis_rows("V.A.MEIN", Row(_offset_reader("measure"), None, "measuring offset included")),
+    **_axis_rows("V.A.MESS", Row(_measured("value"), None, "measured value")),
+    **_axis_rows("V.A.MOFFS", Row(_measured("offset"), None, "measured value - target")),
+    **_axis_rows("V.A.MERF", Row(_was_measured, None, "1 when the axis has been measured")),
     **_axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),
 }
 """Every variable of the control that is known here, by pattern."""
