@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ncscope.channel import contour, measuring, offsets
+from ncscope.channel import contour, manual, measuring, offsets
 from ncscope.channel.commands import COMMANDS, LAST
 from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
@@ -383,6 +383,8 @@ RULES: tuple[Callable[[Draft, Words], None], ...] = (
     _tool,
     _technology,
     _centre_words,
+    manual.jog,
+    manual.home,
     _motion,
     _end,
 )

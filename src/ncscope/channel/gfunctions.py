@@ -31,7 +31,7 @@ def _rows() -> dict[int, GFunction]:
     add("2 3", "motion", "20108", "later", "circular motion")
     add("4", "motion", "20108", "quiet", "dwell")
     add("33 63 331 332", "motion", "20108", "later", "thread cutting and tapping")
-    add("74", "motion", "20108", "later", "homing")
+    add("74", "motion", "20108", "motion", "homing")
     add("98 99", "motion", "20108", "later", "software limits from the program")
     add("160", None, None, "offset", "take axes into or out of a zero offset group")
     add("301 302", "corner", None, "later", "chamfer and rounding")
@@ -68,8 +68,8 @@ def _rows() -> dict[int, GFunction]:
     add("161 162", "centre", "20127", "quiet", "circle centre absolute or relative")
     add("163", None, None, "later", "radius programming")
     add("164 165", "correction", "20128", "quiet", "circle centre correction")
-    add("200 201", "manual", "20129", "later", "manual mode")
-    add("202", "manual", "20129", "quiet", "manual mode off")
+    add("200 201", "manual", "20129", "motion", "manual mode")
+    add("202", "manual", "20129", "motion", "manual mode off")
     add("66", None, None, "quiet", "cycle synchronisation")
     # fmt: on
     return table

@@ -60,12 +60,17 @@ class SystemDefinition:
 
 @dataclass(frozen=True, slots=True)
 class SelectedTool:
-    """The tool that acts: T and D words, and the record with what the program wrote into it."""
+    """The tool that acts: T and D words, and the record with what the program wrote into it.
+
+    correction: mm that #TLC adds to the length; correction_at: its place, None when it is off.
+    """
 
     place: int = 0
     record_index: int = 0
     record: Tool = field(default_factory=Tool)
     selected_at: str | None = None
+    correction: float = 0.0
+    correction_at: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

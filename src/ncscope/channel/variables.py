@@ -20,7 +20,7 @@ from ncscope.diagnostics import Span
 from ncscope.kinematics.parameters import PARAMETER_COUNT, KinematicParameters, field_index
 from ncscope.language import tree
 from ncscope.language.expressions import EvaluationError, evaluate, indices_of
-from ncscope.machine import ZERO_GROUPS, OffsetRecord
+from ncscope.machine import ZERO_GROUPS, OffsetRecord, Tool
 
 Value = float | str
 Node = tree.Variable | tree.Parameter | tree.CycleParameter
@@ -263,6 +263,18 @@ def _read_tool_axis(draft: Draft, ref: Reference) -> float:
     return draft.shown(ref.axis, draft.state.tool.record.axis_offsets.get(ref.axis, 0.0))
 
 
+def _record(draft: Draft, ref: Reference) -> Tool:
+    """The record of the lists that `V.G.WZ[j]` reads."""
+    index = ref.numbers[0]
+    if index not in draft.machine.tools:
+        draft.fail("20172", ref.span, f"tool data D{index} does not exist")
+    return draft.machine.tools[index]
+
+
+def _read_record_axis(draft: Draft, ref: Reference) -> float:
+    return draft.shown(ref.axis, _record(draft, ref).axis_offsets.get(ref.axis, 0.0))
+
+
 # --- zero offsets ------------------------------------------------------------------------------
 
 
@@ -434,6 +446,13 @@ VARIABLES: dict[str, Row] = {
         _length(lambda d: d.state.tool.record.radius), _write_radius, "radius of the tool"
     ),
     **_axis_rows("V.G.WZ_AKT.V", Row(_read_tool_axis, _write_tool_axis, "axis offset of the tool")),
+    "V.G.WZ[].L": Row(
+        lambda d, r: _record(d, r).length / d.modes.length_factor, None, "length of a tool"
+    ),
+    "V.G.WZ[].R": Row(
+        lambda d, r: _record(d, r).radius / d.modes.length_factor, None, "radius of a tool"
+    ),
+    **_axis_rows("V.G.WZ[].V", Row(_read_record_axis, None, "axis offset of a tool")),
     **_axis_rows("V.G.NP[].V", Row(_read_np, _write_np, "zero offset of a group")),
     **_axis_rows(
         "V.G.NP_AKT.V", Row(_read_np_active, _write_np_active, "zero offset that is active")
@@ -471,6 +490,7 @@ VARIABLES: dict[str, Row] = {
     **_axis_rows("V.A.MESS", Row(_measured("value"), None, "measured value")),
     **_axis_rows("V.A.MOFFS", Row(_measured("offset"), None, "measured value - target")),
     **_axis_rows("V.A.MERF", Row(_was_measured, None, "1 when the axis has been measured")),
+    **_axis_rows("V.A.MANUAL_OFFSETS", Row(lambda d, r: 0.0, None, "manual offsets: no jog here")),
     **_axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),
 }
 """Every variable of the control that is known here, by pattern."""
