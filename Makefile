@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test check format bench docs clean
+.PHONY: demo test check format docs clean
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -15,8 +15,10 @@ $(STAMP): pyproject.toml
 	touch $(STAMP)
 
 demo: $(STAMP)
+	rm -rf build/demo
 	$(BIN)/ncscope run examples/programs/test_program_A.nc --machine examples/machines/xyzac_axes --messages build/demo
-	$(BIN)/ncscope run examples/programs/zero_offsets.nc --machine examples/machines/zero_list
+	$(BIN)/ncscope run examples/programs/zero_offsets.nc --machine examples/machines/zero_list_repaired --messages build/demo
+	$(BIN)/ncscope explain examples/programs/five_axis.nc:N60 --machine examples/machines/ca_head
 
 test: $(STAMP)
 	$(BIN)/python -m pytest

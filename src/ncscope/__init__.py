@@ -1,7 +1,7 @@
 """ncscope: where every axis of a CNC machine goes, and why.
 
 Read the source in this order: `diagnostics`, `frames`, `kinematics`, `language.tree`, `machine`,
-`coordinates`, `channel.state`, `channel.block`, `run`, `trajectory`, `lists`, `views`, `cli`.
+`coordinates`, `channel.state`, `channel.block`, `execution`, `trajectory`, `lists`, `views`, `cli`.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ __all__ = [
 _HOME = {
     "Diagnostic": "ncscope.diagnostics",
     "Machine": "ncscope.machine",
-    "Options": "ncscope.run",
-    "Program": "ncscope.run",
+    "Options": "ncscope.execution",
+    "Program": "ncscope.execution",
     "Trajectory": "ncscope.trajectory",
     "load_machine": "ncscope.lists",
     "load_program": "ncscope.loading",
     "render": "ncscope.diagnostics",
-    "run": "ncscope.run",
+    "run": "ncscope.execution",
 }
 
 
@@ -40,10 +40,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'ncscope' has no attribute {name!r}")
     from importlib import import_module
 
-    value = getattr(import_module(_HOME[name]), name)
-    if name == "run":
-        globals()[name] = value
-    return value
+    return getattr(import_module(_HOME[name]), name)
 
 
 def __dir__() -> list[str]:

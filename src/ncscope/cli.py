@@ -6,6 +6,7 @@ Exit codes: 0 the program ran, 1 it ended with an error, 2 the command was used 
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
@@ -15,14 +16,17 @@ import typer
 from ncscope import __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     from rich.console import Console
 
     from ncscope.diagnostics import Diagnostic
+    from ncscope.execution import Program
     from ncscope.machine import Machine
-    from ncscope.run import Program
     from ncscope.trajectory import Trajectory
+
+LONG_PROGRAM = 200_000
+"""Characters from which a run shows its progress."""
 
 app = typer.Typer(
     add_completion=False,
@@ -91,7 +95,7 @@ def run_command(
     strict: Annotated[bool, typer.Option("--strict", help="A warning stops the run.")] = False,
 ) -> None:
     """Run an NC program and show where the tool and every axis go."""
-    from ncscope.run import Options
+    from ncscope.execution import Options
     from ncscope.views.message_files import write_messages
 
     shape = _format(format, out)
@@ -121,17 +125,17 @@ def explain_command(
     """Take the axis positions of one block apart, each part with the line that set it."""
     import json
 
-    from ncscope.run import Options
+    from ncscope.execution import Options
     from ncscope.views.table import explain_table
 
     path, line, number = _place(place)
     result, found, source = _run(path, machine, Options(clamp, _levels(skip)))
-    if number is not None:
-        line = result.line_of_block(number) or _fail(f"block N{number} was not executed")
     try:
+        if number is not None:
+            line = result.line_of_block(number)
         explanation = result.explain(line=line)
     except KeyError as error:
-        _show_diagnostics([*found, *result.diagnostics])
+        _show_diagnostics(d for d in [*found, *result.diagnostics] if d.is_error)
         _fail(str(error.args[0]), code=1)
     if format is ExplainFormat.JSON:
         typer.echo(json.dumps(explanation.as_dict(), ensure_ascii=False, indent=1))
@@ -157,7 +161,7 @@ def check_command(
         if path.is_dir() or path.suffix.lower() == ".lis":
             found.extend(check_lists(path))
         else:
-            from ncscope.run import Options
+            from ncscope.execution import Options
 
             result, more, _ = _run(path, machine, Options(max_blocks=1_000_000))
             found.extend([*(d for d in more if d.severity != "note"), *result.diagnostics])
@@ -173,8 +177,9 @@ def check_command(
 def _run(
     path: Path, machine_path: Path | None, options, strict: bool = False
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
+    from ncscope.execution import run
     from ncscope.loading import load_program
-    from ncscope.run import run
+    from ncscope.trajectory import Trajectory
 
     machine, found = _machine(machine_path)
     if options.clamp is not None and options.clamp not in machine.clamp_positions:
@@ -184,6 +189,8 @@ def _run(
         program = load_program(path)
     except OSError as error:
         _fail(f"cannot read {path}: {error.strerror}")
+    if any(d.is_error for d in found):  # on the wrong machine every number would be wrong
+        return Trajectory((), machine.axis_names, ok=False), found, program
     with _progress(len(program.source.text)) as progress:
         result = run(machine, program, options, progress)
     return result, found, program
@@ -260,7 +267,8 @@ def _show_run(result: Trajectory, ok: bool) -> None:
     from ncscope.views.table import run_table
 
     console = _console()
-    console.print(run_table(result))
+    if len(result):
+        console.print(run_table(result))
     for message in result.messages:
         console.print(f"message  {message.text}", markup=False, highlight=False)
     status = "ok" if ok else "stopped by an error"
@@ -288,26 +296,17 @@ def _console(stderr: bool = False) -> Console:
     return Console(stderr=stderr, width=width, highlight=False)
 
 
-class _progress:  # noqa: N801
+@contextmanager
+def _progress(total: int) -> Iterator[Callable[[int], None] | None]:
     """A progress bar on standard error for long programs, when that is a terminal."""
+    if total < LONG_PROGRAM or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.progress import Progress
 
-    def __init__(self, total: int) -> None:
-        self.total = total
-        self.bar = None
-
-    def __enter__(self) -> Callable[[int], None] | None:
-        if self.total < 200_000 or not sys.stderr.isatty():
-            return None
-        from rich.progress import Progress
-
-        self.bar = Progress(console=_console(stderr=True), transient=True)
-        self.bar.start()
-        task = self.bar.add_task("running", total=self.total)
-        return lambda offset: self.bar.update(task, completed=offset)
-
-    def __exit__(self, *_: object) -> None:
-        if self.bar is not None:
-            self.bar.stop()
+    with Progress(console=_console(stderr=True), transient=True) as bar:
+        task = bar.add_task("running", total=total)
+        yield lambda offset: bar.update(task, completed=offset)
 
 
 def _fail(message: str, code: int = 2) -> NoReturn:

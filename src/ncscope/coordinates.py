@@ -98,7 +98,6 @@ class ActiveTool:
     axis_offsets: tuple[float, ...] = ()
     direction: tuple[float, float, float] = (0.0, 0.0, -1.0)
     fixed: bool = False
-    name: str = "tool"
     origin: str | None = None
 
 
@@ -109,7 +108,6 @@ class ActiveKinematics:
     model: UniversalKinematics
     pose: int | None = None
     orientation_in_cs: bool = False
-    name: str = "kinematics"
     origin: str | None = None
 
 
@@ -178,7 +176,7 @@ class Coordinates:
         n = min(3, self.axis_count)
         result[..., 3:] -= self._offset_total[3:]
         back = self._main(self.mcs_frame.inverse)
-        result[..., :n] = result[..., :n] @ back[0].T + back[1]
+        result[..., :n] = _transformed(result[..., :n], *back)
         return self.contour.invert(result)
 
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
@@ -294,8 +292,7 @@ class Coordinates:
     def _affine(self, program: ArrayLike, frame: Frame, total: Array) -> Array:
         result = np.array(program, dtype=float)
         n = min(3, self.axis_count)
-        rotation, shift = self._main(frame)
-        result[..., :n] = result[..., :n] @ rotation.T + shift
+        result[..., :n] = _transformed(result[..., :n], *self._main(frame))
         result[..., 3:] += total[3:]
         return result
 
@@ -334,11 +331,11 @@ class Coordinates:
                 yield offset.name, offset.origin, _adder(values)
             if k:
                 yield level.name, level.origin, _mover(level.frame, n)
-        if self.tool.name != "tool" or np.any(self.tool_vector):
-            yield self.tool.name, self.tool.origin, _adder(-self.tool_vector)
+        if self.tool.origin is not None or np.any(self.tool_vector):
+            yield "tool", self.tool.origin, _adder(-self.tool_vector)
         if self.kinematics is not None:
             active = self._kinematics_alone
-            yield self.kinematics.name, self.kinematics.origin, _solver(active, near)
+            yield "kinematics", self.kinematics.origin, _solver(active, near)
 
 
 def _main_axes(values: Array) -> Array:
@@ -346,6 +343,13 @@ def _main_axes(values: Array) -> Array:
     main = np.zeros(3)
     main[: min(3, len(values))] = values[:3]
     return main
+
+
+def _transformed(points: Array, rotation: Array, shift: Array) -> Array:
+    """rotation @ point + shift, summed in one order so that one row and a million agree."""
+    n = points.shape[-1]
+    rows = [sum(rotation[i, j] * points[..., j] for j in range(n)) + shift[i] for i in range(n)]
+    return np.stack(rows, axis=-1)
 
 
 def _adder(values: ArrayLike):

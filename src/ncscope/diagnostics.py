@@ -6,10 +6,12 @@ Knows nothing of NC blocks or machines. The ids and their explanations are in `c
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ncscope.catalogue import CATALOGUE
 
@@ -30,25 +32,24 @@ class Source:
     text: str = field(repr=False)
 
     @cached_property
-    def line_starts(self) -> list[int]:
+    def data(self) -> NDArray[np.uint8]:
+        """The text as bytes, one a character; `?` for a character beyond Latin-1."""
+        return np.frombuffer(self.text.encode("latin-1", "replace"), dtype=np.uint8)
+
+    @cached_property
+    def line_starts(self) -> NDArray[np.int64]:
         """Offset of the first character of every line; line 1 is at index 0."""
-        starts = [0]
-        find = self.text.find
-        at = find("\n")
-        while at != -1:
-            starts.append(at + 1)
-            at = find("\n", at + 1)
-        return starts
+        return np.concatenate(([0], np.flatnonzero(self.data == 10) + 1))
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of a character, both counted from 1."""
-        line = bisect_right(self.line_starts, offset)
-        return line, offset - self.line_starts[line - 1] + 1
+        line = int(np.searchsorted(self.line_starts, offset, side="right"))
+        return line, offset - int(self.line_starts[line - 1]) + 1
 
     def line_text(self, line: int) -> str:
         """The text of line `line` (from 1) without its end-of-line characters."""
-        start = self.line_starts[line - 1]
-        end = self.line_starts[line] if line < len(self.line_starts) else len(self.text)
+        start = int(self.line_starts[line - 1])
+        end = int(self.line_starts[line]) if line < len(self.line_starts) else len(self.text)
         return self.text[start:end].rstrip("\r\n")
 
 

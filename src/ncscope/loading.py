@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ncscope.diagnostics import Source
-from ncscope.run import Program
+from ncscope.execution import Program
 
 
 def load_program(path: str | Path) -> Program:

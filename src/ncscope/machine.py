@@ -7,10 +7,14 @@ which list set a value (`nullp.lis:14`), None when no list did.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from ncscope.kinematics.parameters import KinematicParameters
+
+if TYPE_CHECKING:
+    from ncscope.kinematics.universal import UniversalKinematics
 
 ZERO_GROUPS = 97
 """Zero offset groups 0..96 (P-ZERO-00002)."""
@@ -125,6 +129,33 @@ class Machine:
     @property
     def axis_names(self) -> tuple[str, ...]:
         return tuple(axis.name for axis in self.axes)
+
+    @property
+    def kinematics(self) -> Mapping[int, UniversalKinematics]:
+        """The kinematics by id, ready for `forward` and `inverse`.
+
+        Access raises KinematicsError where the lists do not describe a usable kinematics.
+        """
+        return _Kinematics(self)
+
+
+class _Kinematics(Mapping[int, "UniversalKinematics"]):
+    def __init__(self, machine: Machine) -> None:
+        self._machine = machine
+
+    def __getitem__(self, id: int) -> UniversalKinematics:
+        from ncscope.kinematics.universal import UniversalKinematics
+
+        machine = self._machine
+        parameters = machine.kinematic_parameters[id]
+        mode = machine.settings.orientation_mode
+        return UniversalKinematics.from_parameters(parameters, machine.axis_names, mode)
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(sorted(self._machine.kinematic_parameters))
+
+    def __len__(self) -> int:
+        return len(self._machine.kinematic_parameters)
 
 
 def is_rotary_name(name: str) -> bool:

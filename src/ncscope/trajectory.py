@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -178,14 +179,16 @@ class Trajectory:
         layers = coordinates.layers(program, near=start)
         return Explanation(file, line, block, axes, layers)
 
-    def line_of_block(self, number: int) -> int | None:
-        """The line of the block with this N number that was executed last; None without."""
+    def line_of_block(self, number: int) -> int:
+        """The line of the block with this N number that was executed last; KeyError without."""
         for s in reversed(self.stretches):
             rows = np.flatnonzero(s.block == number)
             if len(rows):
                 return int(s.line[rows[-1]])
         lines = [line for line, place in self._places.items() if place[3] == number]
-        return lines[-1] if lines else None
+        if not lines:
+            raise KeyError(f"block N{number} was not executed")
+        return lines[-1]
 
     def to_arrow(self) -> Any:
         """A pyarrow Table: line, block, motion, feed, then pcs_X .. acs_X, mcs_X, wcs_X."""
@@ -200,12 +203,26 @@ class Trajectory:
         for name in ("pcs", "wcs", "mcs", "acs"):
             matrix = getattr(self, name)
             columns |= {f"{name}_{axis}": matrix[:, i] for i, axis in enumerate(self.axes)}
-        columns |= {f"direction_{c}": self.direction[:, i] for i, c in enumerate("ijk")}
+        direction = self.direction
+        columns |= {f"direction_{c}": direction[:, i] for i, c in enumerate("ijk")}
         return pa.table(columns)
 
     def to_pandas(self) -> Any:
         """The table of `to_arrow` as a DataFrame; needs pandas."""
         return self.to_arrow().to_pandas()
+
+    def write(self, path: str | Path) -> None:
+        """The table of `to_arrow` as a .parquet or .csv file; raises ValueError for another."""
+        import pyarrow.csv
+        import pyarrow.parquet
+
+        path = Path(path)
+        if path.suffix not in (".parquet", ".csv"):
+            raise ValueError(f"{path.name}: the name must end in .parquet or .csv")
+        if path.suffix == ".parquet":
+            pyarrow.parquet.write_table(self.to_arrow(), path)
+        else:
+            pyarrow.csv.write_csv(self.to_arrow(), path)
 
     # --- parts ---------------------------------------------------------------------------------
 
@@ -248,7 +265,9 @@ class Recorder:
         self._pcs: list[Array] = []
         self._acs: list[Array] = []
 
-    def add(self, coordinates: Coordinates, axes: tuple[str, ...], move: Move, start: Array) -> None:
+    def add(
+        self, coordinates: Coordinates, axes: tuple[str, ...], move: Move, start: Array
+    ) -> None:
         """One move; `start` are the axis positions before it."""
         if self._open is None or self._open[0] is not coordinates or self._open[1] != axes:
             self.close()

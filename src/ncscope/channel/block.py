@@ -13,6 +13,7 @@ import numpy as np
 
 from ncscope.channel import contour, manual, measuring, offsets
 from ncscope.channel.commands import COMMANDS, LAST
+from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
@@ -76,7 +77,7 @@ def _execute(draft: Draft, block: tree.Block) -> None:
     _refuse_flow(draft, block)
     # 2. # commands and declarations.
     for declaration in block.declarations:
-        COMMANDS["VAR"](draft, declaration)
+        declare(draft, declaration)
     for command in block.commands:
         if command.name not in LAST:
             _command(draft, command, block)

@@ -91,7 +91,7 @@ class Draft:
         try:
             self.state = self.state.with_coordinates(coordinates)
         except KinematicsError as error:
-            self.fail(error.id, span, str(error))
+            self.fail(error.id, span, error.message)
 
     def move_to(
         self, program: np.ndarray, span: Span, coordinates: Coordinates | None = None
@@ -103,7 +103,7 @@ class Draft:
             axes = chain.to_axes(program, near=state.position.axes)
             shown = program if coordinates is None else state.coordinates.to_program(axes)
         except KinematicsError as error:
-            self.fail(error.id, span, str(error))
+            self.fail(error.id, span, error.message)
         if not np.all(np.isfinite(axes)):
             self.fail("21883", span, "the axis position is too large to be computed")
         self.state = replace(state, position=Position(axes, shown))

@@ -24,9 +24,8 @@ def zero_name(index: int) -> str:
 def select_zero(state: State, index: int, place: str) -> State:
     """The zero offset group `index` in the innermost level (G53..G59, G159)."""
     record = state.zero_offsets.record(index)
-    offset = _offset_from_record(state, zero_name(index), record, place)
-    if index == 0 and not state.zero_offsets.group_0_is_offset:
-        offset = None
+    none = index == 0 and not state.zero_offsets.group_0_is_offset
+    offset = None if none else _offset_from_record(state, zero_name(index), record, place)
     return replace(_with_offset(state, "zero", offset), zero_index=index)
 
 
@@ -116,7 +115,6 @@ def active_tool(state: State) -> ActiveTool:
         axis_offsets=tuple(record.axis_offsets.get(i, 0.0) for i in range(n)),
         direction=_tool_direction(state, record),
         fixed=record.fixed,
-        name=f"tool D{tool.record_index}" if tool.record_index else "tool",
         origin=", ".join(dict.fromkeys(p for p in places if p)) or None,
     )
 

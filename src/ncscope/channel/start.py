@@ -21,9 +21,7 @@ def start_state(machine: Machine, clamp_index: int | None = None) -> State:
         axes=machine.axes,
         coordinates=Coordinates(n),
         position=Position(zeros, zeros),
-        kinematics=Kinematics(
-            machine.kinematic_parameters, machine.settings.default_kinematic_id
-        ),
+        kinematics=Kinematics(machine.kinematic_parameters, machine.settings.default_kinematic_id),
         zero_offsets=machine.zero_offsets,
     )
     if clamp_index is not None:

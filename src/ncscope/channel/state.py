@@ -174,4 +174,3 @@ class State:
             program = coordinates.to_program(self.position.axes)
         position = Position(self.position.axes, program)
         return replace(self, coordinates=coordinates, position=position)
-

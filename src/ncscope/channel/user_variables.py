@@ -129,9 +129,7 @@ def _resolve(draft: Draft, node: Node, numbers: tuple[int, ...]) -> tuple[str, t
     return f"V.{group}.{name}", numbers
 
 
-def _element(
-    draft: Draft, key: str, stored: Stored, indices: tuple[int, ...], span: Span
-) -> int:
+def _element(draft: Draft, key: str, stored: Stored, indices: tuple[int, ...], span: Span) -> int:
     if len(indices) < len(stored.dimensions):
         draft.fail("21216", span, f"{key} needs {len(stored.dimensions)} indices")
     if len(indices) > len(stored.dimensions):

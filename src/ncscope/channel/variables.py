@@ -13,14 +13,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from ncscope.channel import offsets, user_variables
+from ncscope.channel import offsets, readers, user_variables
 from ncscope.channel.draft import BlockError, Draft
 from ncscope.coordinates import Offset
 from ncscope.diagnostics import Span
 from ncscope.kinematics.parameters import PARAMETER_COUNT, KinematicParameters, field_index
 from ncscope.language import tree
 from ncscope.language.expressions import EvaluationError, evaluate, indices_of
-from ncscope.machine import ZERO_GROUPS, OffsetRecord, Tool
+from ncscope.machine import ZERO_GROUPS, OffsetRecord
 
 Value = float | str
 Node = tree.Variable | tree.Parameter | tree.CycleParameter
@@ -150,9 +150,7 @@ def _combined(draft: Draft, word: tree.Assignment, old: Value, value: Value) -> 
     return {"+=": old + value, "-=": old - value, "*=": old * value}[word.operator]
 
 
-def _find(
-    draft: Draft, node: tree.Variable, numbers: tuple[int, ...]
-) -> tuple[Row, Reference]:
+def _find(draft: Draft, node: tree.Variable, numbers: tuple[int, ...]) -> tuple[Row, Reference]:
     """The table row of a variable. Axis variables may end in an axis name or an index."""
     names = [part.name.upper() + "[]" * len(part.indices) for part in node.parts]
     key = ".".join(names)
@@ -263,27 +261,13 @@ def _read_tool_axis(draft: Draft, ref: Reference) -> float:
     return draft.shown(ref.axis, draft.state.tool.record.axis_offsets.get(ref.axis, 0.0))
 
 
-def _record(draft: Draft, ref: Reference) -> Tool:
-    """The record of the lists that `V.G.WZ[j]` reads."""
-    index = ref.numbers[0]
-    if index not in draft.machine.tools:
-        draft.fail("20172", ref.span, f"tool data D{index} does not exist")
-    return draft.machine.tools[index]
-
-
-def _read_record_axis(draft: Draft, ref: Reference) -> float:
-    return draft.shown(ref.axis, _record(draft, ref).axis_offsets.get(ref.axis, 0.0))
-
-
 # --- zero offsets ------------------------------------------------------------------------------
 
 
 def _group(draft: Draft, ref: Reference) -> int:
     index = ref.numbers[0]
     if not 0 <= index < ZERO_GROUPS:
-        draft.fail(
-            "20906", ref.span, f"zero offset groups are 0 to {ZERO_GROUPS - 1}, not {index}"
-        )
+        draft.fail("20906", ref.span, f"zero offset groups are 0 to {ZERO_GROUPS - 1}, not {index}")
     return index
 
 
@@ -359,9 +343,7 @@ def _write_record(draft: Draft, node: tree.Variable, word: tree.Assignment) -> N
     values = _record_values(draft, word.value)
     if word.operator in ("+=", "-="):
         sign = 1.0 if word.operator == "+=" else -1.0
-        values = [
-            o + sign * v for o, v in zip(_record_values(draft, node), values, strict=True)
-        ]
+        values = [o + sign * v for o, v in zip(_record_values(draft, node), values, strict=True)]
     elif word.operator != "=":
         draft.fail("20573", word.span, "records know =, += and -= only")
     indexed = dict(enumerate(values))
@@ -412,18 +394,6 @@ def _offset_reader(kind: str) -> Callable[[Draft, Reference], float]:
     return read
 
 
-def _measured(field: str) -> Callable[[Draft, Reference], float]:
-    def read(draft: Draft, ref: Reference) -> float:
-        held = draft.state.measured.get(draft.state.axis_names[ref.axis])
-        return draft.shown(ref.axis, getattr(held, field)) if held else 0.0
-
-    return read
-
-
-def _was_measured(draft: Draft, ref: Reference) -> float:
-    return float(draft.state.axis_names[ref.axis] in draft.state.measured)
-
-
 def _length(value: Callable[[Draft], float]) -> Callable[[Draft, Reference], float]:
     return lambda draft, ref: value(draft) / draft.modes.length_factor
 
@@ -447,12 +417,12 @@ VARIABLES: dict[str, Row] = {
     ),
     **_axis_rows("V.G.WZ_AKT.V", Row(_read_tool_axis, _write_tool_axis, "axis offset of the tool")),
     "V.G.WZ[].L": Row(
-        lambda d, r: _record(d, r).length / d.modes.length_factor, None, "length of a tool"
+        lambda d, r: readers.record(d, r).length / d.modes.length_factor, None, "length of a tool"
     ),
     "V.G.WZ[].R": Row(
-        lambda d, r: _record(d, r).radius / d.modes.length_factor, None, "radius of a tool"
+        lambda d, r: readers.record(d, r).radius / d.modes.length_factor, None, "radius of a tool"
     ),
-    **_axis_rows("V.G.WZ[].V", Row(_read_record_axis, None, "axis offset of a tool")),
+    **_axis_rows("V.G.WZ[].V", Row(readers.record_axis, None, "axis offset of a tool")),
     **_axis_rows("V.G.NP[].V", Row(_read_np, _write_np, "zero offset of a group")),
     **_axis_rows(
         "V.G.NP_AKT.V", Row(_read_np_active, _write_np_active, "zero offset that is active")
@@ -487,9 +457,9 @@ VARIABLES: dict[str, Row] = {
     **_axis_rows("V.A.ACS.ABS", Row(_machine_axis, None, "axis position")),
     **_axis_rows("V.A.BZP", Row(_offset_reader("g92"), None, "reference point offset (G92)")),
     **_axis_rows("V.A.MEIN", Row(_offset_reader("measure"), None, "measuring offset included")),
-    **_axis_rows("V.A.MESS", Row(_measured("value"), None, "measured value")),
-    **_axis_rows("V.A.MOFFS", Row(_measured("offset"), None, "measured value - target")),
-    **_axis_rows("V.A.MERF", Row(_was_measured, None, "1 when the axis has been measured")),
+    **_axis_rows("V.A.MESS", Row(readers.measured("value"), None, "measured value")),
+    **_axis_rows("V.A.MOFFS", Row(readers.measured("offset"), None, "measured value - target")),
+    **_axis_rows("V.A.MERF", Row(readers.was_measured, None, "1 when the axis has been measured")),
     **_axis_rows("V.A.MANUAL_OFFSETS", Row(lambda d, r: 0.0, None, "manual offsets: no jog here")),
     **_axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),
 }

@@ -12,9 +12,7 @@ from ncscope.language import tree
 PRESET_NAMES = ("PSET", "PRESET")
 
 
-def collect_axes(
-    draft: Draft, axes: dict[int, tuple[float, Span]], word: tree.AxisWord
-) -> None:
+def collect_axes(draft: Draft, axes: dict[int, tuple[float, Span]], word: tree.AxisWord) -> None:
     """Adds the word to `axes`; fails for an unknown axis or a second value of one axis."""
     axis = draft.axis_index(word.name, word.span)
     if axis in axes:

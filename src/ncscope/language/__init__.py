@@ -11,9 +11,10 @@ from ncscope.language.expressions import (
     evaluate,
     indices_of,
 )
-from ncscope.language.parser import Program, iterate_blocks, parse_block, parse_program
+from ncscope.language.parser import BlockReader, Program, iterate_blocks, parse_block, parse_program
 
 __all__ = [
+    "BlockReader",
     "Environment",
     "EvaluationError",
     "Program",

@@ -75,41 +75,70 @@ def parse_program(source: Source) -> Program:
 
 
 def iterate_blocks(source: Source) -> Iterator[tuple[Block, Diagnostics]]:
-    """The blocks of a source one by one, each with its diagnostics.
+    """The blocks of a source one by one, each with its diagnostics."""
+    return iter(BlockReader(source))
+
+
+class BlockReader:
+    """Reads the blocks of a source one by one, each with its diagnostics.
 
     Block comments, the order of headers and #VAR areas are followed from block to block.
+    `at` is the offset of the next line; a reader of plain blocks may move it with `skip_to`.
     """
-    at, in_main, in_sub, declaring = 0, False, False, False
-    pending: Diagnostics = ()
-    if source.text.startswith(_BYTE_ORDER_MARK):
-        pending, at = (_byte_order_mark(source),), 1
-    while at < len(source.text):
-        block, found, at = parse_block(source, at, declarations=declaring)
-        if block is None:
-            continue
-        block, found = _with(block, (*pending, *found))
-        pending = ()
-        if block.header is not None:
-            in_sub = _is_local(block.header)
-            block, found = _checked_header(block, found, in_main)
-        in_main = in_main or not in_sub
-        name = block.commands[0].name if block.commands else ""
-        declaring = name == "VAR" or (declaring and name != "ENDVAR")
-        if name == "COMMENT BEGIN":
-            at, more = _behind_comment(source, at, block.span)
-            block, found = _with(block, (*found, *more))
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.at = 0
+        self.in_area = False
+        self._in_main = False
+        self._in_sub = False
+
+    def skip_to(self, offset: int) -> None:
+        """The lines up to `offset`, where a line begins, have been read by somebody else."""
+        self.at = offset
+        self._in_main = self._in_main or not self._in_sub
+
+    def __iter__(self) -> Iterator[tuple[Block, Diagnostics]]:
+        source, declaring = self.source, False
+        pending: Diagnostics = ()
+        if source.text.startswith(_BYTE_ORDER_MARK):
+            pending, self.at = (_byte_order_mark(source),), 1
+        while self.at < len(source.text):
+            block, found, self.at = parse_block(source, self.at, declarations=declaring)
+            if block is None:
+                continue
+            block, found = _with(block, (*pending, *found))
+            pending = ()
+            block, found = self._follow_header(block, found)
+            name = block.commands[0].name if block.commands else ""
+            declaring = name == "VAR" or (declaring and name != "ENDVAR")
+            self.in_area = declaring or name == "COMMENT BEGIN"
+            if name == "COMMENT BEGIN":
+                yield from self._comment(block, found)
+                continue
+            if name == "COMMENT END":
+                message = "#COMMENT END stands without #COMMENT BEGIN."
+                block, found = _with(block, (*found, diagnostic("20567", block.span, message)))
             yield block, found
-            if at < len(source.text):
-                ending, found, at = parse_block(source, at)
-                if ending is not None:
-                    yield ending, found
-            continue
-        if name == "COMMENT END":
-            message = "#COMMENT END stands without #COMMENT BEGIN."
-            block, found = _with(block, (*found, diagnostic("20567", block.span, message)))
-        yield block, found
-    if pending:
-        yield _empty(source), pending
+        if pending:
+            yield _empty(source), pending
+
+    def _follow_header(self, block: Block, found: Diagnostics) -> tuple[Block, Diagnostics]:
+        if block.header is not None:
+            self._in_sub = _is_local(block.header)
+            block, found = _checked_header(block, found, self._in_main)
+        self._in_main = self._in_main or not self._in_sub
+        return block, found
+
+    def _comment(self, block: Block, found: Diagnostics) -> Iterator[tuple[Block, Diagnostics]]:
+        """#COMMENT BEGIN and the #COMMENT END behind the lines that it takes away."""
+        self.at, more = _behind_comment(self.source, self.at, block.span)
+        yield _with(block, (*found, *more))
+        if self.at < len(self.source.text):
+            ending, found, self.at = parse_block(self.source, self.at)
+            self.in_area = False
+            if ending is not None:
+                yield ending, found
 
 
 def parse_block(

@@ -69,7 +69,9 @@ def _cells(
         values = getattr(s, system.lower())[i]
         row = [*(head if k == 0 else [""] * 4), system, *_numbers(axes, s.axes, values)]
         if directed:
-            row.append(_vector(s.direction[i]) if system == "ACS" and s.direction is not None else "")
+            row.append(
+                _vector(s.direction[i]) if system == "ACS" and s.direction is not None else ""
+            )
         yield row
 
 

@@ -10,25 +10,25 @@ from ncscope.channel.variables import evaluate_value, indices
 from ncscope.language import tree
 
 
-def declare(draft: Draft, item: tree.HashCommand | tree.Declaration) -> None:
-    """#VAR itself does nothing; each line between it and #ENDVAR declares a variable."""
-    if isinstance(item, tree.HashCommand):
-        return
+def declare(draft: Draft, item: tree.Declaration) -> None:
+    """One line between #VAR and #ENDVAR."""
     if not user_variables.is_user(item.target):
         draft.fail("20908", item.target.span, "only P, V.P, V.S and V.L can be declared")
     values = tuple(evaluate_value(draft, e) for e in item.initial)
     user_variables.declare(draft, item, indices(draft, item.target), values)
 
 
-def end(draft: Draft, item: tree.HashCommand) -> None:
-    """#ENDVAR"""
+def area(draft: Draft, command: tree.HashCommand) -> None:
+    """#VAR and #ENDVAR do nothing themselves; the lines between them declare."""
 
 
 def delete(draft: Draft, command: tree.HashCommand) -> None:
     """#DELETE V.P.A, V.S.B"""
     nodes = [i.value for group in command.groups for i in group.items]
     for node in nodes:
-        if not isinstance(node, (tree.Variable, tree.Parameter)) or not user_variables.is_user(node):
+        if not isinstance(node, (tree.Variable, tree.Parameter)) or not user_variables.is_user(
+            node
+        ):
             draft.fail("20908", command.span, "#DELETE needs variables of the program")
         user_variables.delete(draft, node, indices(draft, node))
     if not nodes:
@@ -41,8 +41,8 @@ def clear_macros(draft: Draft, command: tree.HashCommand) -> None:
 
 
 COMMANDS = {
-    "VAR": declare,
-    "ENDVAR": end,
+    "VAR": area,
+    "ENDVAR": area,
     "DELETE": delete,
     "INIT MACRO TAB": clear_macros,
 }

@@ -99,4 +99,10 @@ def _format(draft: Draft, template: str, text: tree.Expression, values: list) ->
     return result
 
 
-COMMANDS = {"MSG SAVE": save, "MSG": show, "MSG INFO": show, "FILE NAME": file_name}
+COMMANDS = {
+    "MSG SAVE": save,
+    "MSG": show,
+    "MSG INFO": show,
+    "FILE NAME": file_name,
+    "FILENAME": file_name,
+}

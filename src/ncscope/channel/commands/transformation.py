@@ -31,9 +31,7 @@ def select(draft: Draft, command: tree.HashCommand) -> None:
         if len(places) != 1 or places[0] is None:
             draft.fail("N2001", command.span, "a kinematics of two steps is not supported yet")
         id = round(evaluate_number(draft, places[0]))
-    draft.state = replace(
-        draft.state, kinematics=replace(draft.state.kinematics, selected=id)
-    )
+    draft.state = replace(draft.state, kinematics=replace(draft.state.kinematics, selected=id))
 
 
 def trafo(draft: Draft, command: tree.HashCommand) -> None:
@@ -63,7 +61,7 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     parameters = _parameters(draft, command.span, held.selected)
     settings = draft.machine.settings
     names = draft.state.axis_names
-    for fault in validate(parameters, len(names), settings.orientation_mode):
+    for fault in validate(parameters, len(names), settings.orientation_mode, names):
         _report(draft, command.span, parameters, fault)
     model = UniversalKinematics.from_parameters(parameters, names, settings.orientation_mode)
     if not model.rtcp:
@@ -77,7 +75,6 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     active = ActiveKinematics(
         model,
         orientation_in_cs=settings.orientation_in_cs,
-        name=f"kinematics {parameters.id}",
         origin=draft.place,
     )
     draft.set_coordinates(replace(draft.state.coordinates, kinematics=active), command.span)
@@ -107,9 +104,7 @@ def _parameters(draft: Draft, span: Span, id: int) -> KinematicParameters:
     return parameters
 
 
-def _report(
-    draft: Draft, span: Span, parameters: KinematicParameters, fault: Fault
-) -> None:
+def _report(draft: Draft, span: Span, parameters: KinematicParameters, fault: Fault) -> None:
     """The fault at #TRAFO ON, with the lines that wrote the values to blame."""
     notes: list[tuple[str, Span]] = []
     for index in fault.indices:

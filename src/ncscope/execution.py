@@ -6,15 +6,17 @@ touches files: messages are values of the result.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from itertools import chain
 
 from ncscope.channel.block import Step, execute
+from ncscope.channel.bulk import advance
+from ncscope.channel.draft import Message
 from ncscope.channel.start import start_state
 from ncscope.channel.state import State
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
-from ncscope.language import iterate_blocks, tree
+from ncscope.language import BlockReader, tree
+from ncscope.language.scanner import Scanner
 from ncscope.machine import Machine
 from ncscope.trajectory import Recorder, Trajectory
 
@@ -25,12 +27,14 @@ class Options:
 
     clamp: clamp position handed over at program start. skip: skip levels that are switched on.
     max_blocks: blocks after which the run stops, 0 for no limit. strict: a warning stops too.
+    bulk: plain blocks are taken many at a time; the result is the same without.
     """
 
     clamp: int | None = None
     skip: frozenset[int] = frozenset()
     max_blocks: int = 0
     strict: bool = False
+    bulk: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,44 +75,89 @@ def run(
     """
     options = options or Options()
     source = program.source if isinstance(program, Program) else Source("program", program)
-    recorder, log = Recorder(source.name), _Log()
-    state = start_state(machine, options.clamp)
-    messages: list = []
-    ended, count = False, 0
-    for block, found in iterate_blocks(source):
+    loop = _Loop(machine, source, options)
+    reader = BlockReader(source)
+    blocks = iter(reader)
+    while not loop.over:
+        loop.take_plain(reader)
+        block, found = next(blocks, (None, ()))
+        if block is None:
+            break
+        loop.take(block, found)
+        if progress is not None:
+            progress(reader.at)
+    return loop.result()
+
+
+class _Loop:
+    """What a run holds from block to block."""
+
+    def __init__(self, machine: Machine, source: Source, options: Options) -> None:
+        self.machine, self.source, self.options = machine, source, options
+        self.state = start_state(machine, options.clamp)
+        self.recorder, self.log = Recorder(source.name), _Log()
+        self.messages: list[Message] = []
+        self.count = 0
+        self.ended = False
+        self.scanner: Scanner | None = None
+
+    @property
+    def over(self) -> bool:
+        return self.ended or self.log.stop
+
+    def take(self, block: tree.Block, found: tuple[Diagnostic, ...]) -> None:
+        """One block in the step lane."""
         for item in found:
-            log.add(item, options.strict)
-        if log.stop:
-            break
-        if block is None or _skipped(block, options):
-            continue
-        count += 1
-        if options.max_blocks and count > options.max_blocks:
-            log.add(_too_many(options, block.span), options.strict)
-            break
-        before, step = state, execute(machine, state, block)
-        state = step.state
-        _record(recorder, before, step, block)
-        messages.extend(step.messages)
+            self.log.add(item, self.options.strict)
+        if self.log.stop or _skipped(block, self.options) or not self._counted(block.span):
+            return
+        before, step = self.state, execute(self.machine, self.state, block)
+        self.state = step.state
+        _record(self.recorder, before, step, block)
+        self.messages.extend(step.messages)
         for item in step.diagnostics:
-            log.add(item, options.strict)
-        ended = step.ended
-        if ended or log.stop:
-            break
-        if progress is not None and count % 1000 == 0:
-            progress(block.span.end)
-    if not ended and not log.stop and count:
-        log.add(_no_end(source), options.strict)
-    recorder.close()
-    axes = tuple(recorder.axes) or state.axis_names
-    return Trajectory(
-        tuple(recorder.stretches),
-        axes,
-        tuple(log.items),
-        tuple(messages),
-        not log.stop,
-        recorder.places,
-    )
+            self.log.add(item, self.options.strict)
+        self.ended = step.ended
+        if step.state.axes is not before.axes:
+            self.scanner = None
+
+    def take_plain(self, reader: BlockReader) -> None:
+        """All plain blocks that follow, in the bulk lane."""
+        if not self.options.bulk or reader.in_area:
+            return
+        if self.scanner is None:
+            self.scanner = Scanner(self.source.data, self.state.axis_names)
+        while True:
+            rows = self.scanner.scan(reader.at, self.source.position(reader.at)[0])
+            left = self.options.max_blocks - self.count if self.options.max_blocks else len(rows)
+            if min(len(rows), left) == 0:
+                return
+            self.state, stretch = advance(self.state, rows, self.source.name, left)
+            if stretch is None:
+                return
+            self.recorder.extend(stretch)
+            self.count += len(stretch)
+            reader.skip_to(int(rows.stops[len(stretch) - 1]))
+
+    def _counted(self, span: Span) -> bool:
+        self.count += 1
+        if self.options.max_blocks and self.count > self.options.max_blocks:
+            self.log.add(_too_many(self.options, span), self.options.strict)
+            return False
+        return True
+
+    def result(self) -> Trajectory:
+        if not self.over and self.count:
+            self.log.add(_no_end(self.source), self.options.strict)
+        self.recorder.close()
+        return Trajectory(
+            tuple(self.recorder.stretches),
+            tuple(self.recorder.axes) or self.state.axis_names,
+            tuple(self.log.items),
+            tuple(self.messages),
+            not self.log.stop,
+            self.recorder.places,
+        )
 
 
 def _skipped(block: tree.Block, options: Options) -> bool:
@@ -147,13 +196,3 @@ def _no_end(source: Source) -> Diagnostic:
     end = len(source.text.rstrip())
     span = Span(source, max(0, end - 1), end)
     return diagnostic("21129", span, "the main program does not end with M02 or M30")
-
-
-def blocks_of(program: Program) -> Iterator[tree.Block]:
-    """The blocks of a program, for checks that do not run it."""
-    return (block for block, _ in iterate_blocks(program.source) if block is not None)
-
-
-def check_program(machine: Machine, program: Program) -> tuple[Diagnostic, ...]:
-    """What `run` would say of the program."""
-    return tuple(chain(run(machine, program).diagnostics))

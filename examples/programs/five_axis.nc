@@ -1,0 +1,17 @@
+%five_axis
+; machine: ca_head. Zero offset, tilted plane and RTCP in one program.
+N10 V.G.NP[1].V.X = 100 V.G.NP[1].V.Y = 50 V.G.NP[1].V.Z = -20
+N20 V.G.WZ_AKT.L = 80
+N30 G54 G00 X0 Y0 Z100 A0 C0
+N40 #KIN ID [91]
+N50 #TRAFO ON
+N55 #CS ON [10,0,0,0,0,30]
+N60 G01 X10 Y5 Z0 A20 C30 F1000
+N70 G92 X2
+N80 X10
+N90 G91 Y5
+N100 #CS OFF
+N105 G90
+N110 X0 Y0 Z0
+N120 #TRAFO OFF
+N130 M30

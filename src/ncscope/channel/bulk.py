@@ -1,0 +1,132 @@
+"""A stretch of plain motion blocks in one step: the bulk lane.
+
+The meaning is that of `block.execute`, block by block: words that are not programmed are filled
+down, G91 is added up, and one call turns the whole stretch into axis positions. What the step
+lane would say something about is cut off here and left to it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numba import njit
+
+from ncscope.channel.state import Position, State
+from ncscope.frames import Array
+from ncscope.kinematics.universal import KinematicsError
+from ncscope.language.scanner import PlainRows
+from ncscope.trajectory import MOTIONS, Stretch
+
+
+def advance(state: State, rows: PlainRows, file: str, limit: int) -> tuple[State, Stretch | None]:
+    """The state after the rows and their moves; None when the first row is for the step lane.
+
+    limit: most rows to take. The length of the stretch says how many rows were taken.
+    """
+    n = min(len(rows), limit)
+    motion = _filled_codes(rows.motion[:n], MOTIONS.index(state.modal.motion))
+    absolute = _filled_codes(rows.absolute[:n], int(state.modal.absolute))
+    feed = _filled_feed(state, rows.feed[:n])
+    n = _before_warning(state, motion, feed, n)
+    if n == 0:
+        return state, None
+    program = np.empty((n, len(state.axes)))
+    _fill_program(rows.values[:n], absolute[:n], _factors(state), state.position.program, program)
+    axes, n = _axes(state, program)
+    if n == 0:
+        return state, None
+    stretch = Stretch(
+        state.coordinates,
+        state.axis_names,
+        file,
+        rows.line[:n].copy(),
+        rows.block[:n].copy(),
+        motion[:n],
+        feed[:n],
+        program[:n],
+        axes[:n],
+        state.position.axes,
+    )
+    return _state_after(state, stretch, bool(absolute[n - 1])), stretch
+
+
+def _factors(state: State) -> Array:
+    """Millimetres or degrees of one programmed unit, by channel axis."""
+    length = state.modal.length_factor
+    return np.array([1.0 if axis.rotary else length for axis in state.axes])
+
+
+def _filled_codes(codes, before: int):
+    filled = np.empty(len(codes), dtype=np.int8)
+    _fill_codes(codes, before, filled)
+    return filled
+
+
+def _filled_feed(state: State, feed: Array) -> Array:
+    filled = np.empty(len(feed))
+    before = np.nan if state.modal.feed is None else state.modal.feed
+    _fill_feed(feed, state.modal.length_factor, before, filled)
+    return filled
+
+
+def _before_warning(state: State, motion, feed: Array, n: int) -> int:
+    """Rows before the first feed motion without a feed, of which the step lane warns once."""
+    if state.modal.feed_warned:
+        return n
+    bare = np.flatnonzero((motion[:n] == MOTIONS.index("G01")) & np.isnan(feed[:n]))
+    return int(bare[0]) if len(bare) else n
+
+
+def _axes(state: State, program: Array) -> tuple[Array, int]:
+    """Axis positions and how many rows have one: an error is reported by the step lane."""
+    near = state.position.axes
+    try:
+        axes = state.coordinates.to_axes(program, near=near)
+        n = len(axes)
+    except KinematicsError as error:
+        n = min(error.rows)
+        axes = state.coordinates.to_axes(program[:n], near=near) if n else program[:0]
+    wild = np.flatnonzero(~np.isfinite(axes).all(axis=1))
+    return axes, int(wild[0]) if len(wild) else n
+
+
+def _state_after(state: State, stretch: Stretch, absolute: bool) -> State:
+    feed = float(stretch.feed[-1])
+    block = int(stretch.block[-1])
+    modal = replace(
+        state.modal,
+        motion=MOTIONS[stretch.motion[-1]],
+        absolute=absolute,
+        feed=None if np.isnan(feed) else feed,
+    )
+    position = Position(stretch.acs[-1].copy(), stretch.pcs[-1].copy())
+    return replace(state, modal=modal, position=position, block=None if block < 0 else block)
+
+
+@njit(cache=True)
+def _fill_codes(codes, before, filled):
+    for i in range(len(codes)):
+        if codes[i] >= 0:
+            before = codes[i]
+        filled[i] = before
+
+
+@njit(cache=True)
+def _fill_feed(feed, factor, before, filled):
+    for i in range(len(feed)):
+        if not np.isnan(feed[i]):
+            before = feed[i] * factor
+        filled[i] = before
+
+
+@njit(cache=True)
+def _fill_program(values, absolute, factors, start, program):
+    """Programmed absolute values: words as they are under G90, added up under G91."""
+    for j in range(values.shape[1]):
+        at = start[j]
+        for i in range(values.shape[0]):
+            if not np.isnan(values[i, j]):
+                length = values[i, j] * factors[j]
+                at = length if absolute[i] else at + length
+            program[i, j] = at

@@ -1,0 +1,6 @@
+N10 X1
+#COMMENT BEGIN
+N1 X99 nonsense ( ; $$
+#COMMENT END
+N20 Y2
+M30

@@ -1,0 +1,8 @@
+N10 #CS DEF [1] [1,0,0]
+N20 #CS ON [1]
+N21 #CS ON [1]
+N22 #CS ON [1]
+N23 #CS ON [1]
+N24 #CS ON [1]
+N30 #CS ON [1]
+N7 M30

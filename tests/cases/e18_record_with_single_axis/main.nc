@@ -1,0 +1,4 @@
+N10 V.G.NP[2].V.X=1
+N20 V.G.NP[1].ALL = V.G.NP[2].ALL + V.G.NP[4].V.X + 100
+N30 X1
+N40 M30

@@ -1,0 +1,2 @@
+N10 #MSG SAVE EXCLUSIVE ["%q", 1]
+N20 M30

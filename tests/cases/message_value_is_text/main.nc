@@ -1,0 +1,2 @@
+N10 #MSG SAVE EXCLUSIVE ["%f", "a"]
+N20 M30

@@ -1,0 +1,4 @@
+N10 #KIN ID [91]
+N20 #TRAFO ON
+N30 #SET AX [X,1,0] [Y,2,1] [Z,3,2]
+N40 M30

@@ -1,0 +1,2 @@
+N10 #TRAFO ON
+N20 M30

@@ -1,0 +1,5 @@
+#VAR
+V.P.A=1
+V.P.A=2
+#ENDVAR
+N20 M30

@@ -1,0 +1,5 @@
+#VAR
+V.P.A[2]=[1,2]
+#ENDVAR
+N10 XV.P.A[2]
+N20 M30

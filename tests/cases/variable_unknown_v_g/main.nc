@@ -1,0 +1,2 @@
+N10 XV.G.NOPE
+N20 M30

@@ -1,0 +1,89 @@
+"""Both lanes have one meaning: the same moves, diagnostics and end, however a program is cut."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ncscope
+from ncscope.execution import Options
+from ncscope.machine import Axis, Machine, OffsetRecord, ZeroOffsets
+
+MACHINES = Path(__file__).parents[1] / "examples" / "machines"
+CA_HEAD, _ = ncscope.load_machine(MACHINES / "ca_head")
+FLAT = Machine(
+    axes=(Axis("X", 1), Axis("Y", 2), Axis("Z", 3), Axis("C", 4, rotary=True), Axis("A", 5, True)),
+    zero_offsets=ZeroOffsets({1: OffsetRecord({0: 10.0, 1: -5.5, 4: 30.0})}),
+)
+
+NUMBER = st.one_of(
+    st.integers(-2000, 2000).map(str),
+    st.floats(-500, 500).map(lambda v: f"{v:.4f}"),
+    st.sampled_from(["0", "-0", "+1.5", ".5", "5.", "1.23456789012345", "1.234567890123456789"]),
+)
+AXIS_WORD = st.tuples(st.sampled_from("XYZAC"), NUMBER).map("".join)
+PLAIN = st.tuples(
+    st.sampled_from(["", "N10 ", "N20", "  "]),
+    st.sampled_from(["", "G0 ", "G01", "G1 ", "G90 ", "G91 G1 ", "G91"]),
+    st.lists(AXIS_WORD, min_size=0, max_size=4),
+    st.sampled_from(["", "F1000", " F20.5"]),
+    st.sampled_from([" ", ""]),
+).map(lambda p: p[0] + p[1] + p[4].join(p[2]) + p[3])
+OTHER = st.sampled_from(
+    [
+        "", "   ", "; comment", "(open comment X1", "G54", "G53 X1", "G92 X5", "G70", "G71 Y2",
+        "#PSET X3", "#CS ON [1,2,3,0,0,30]", "#CS OFF", "P1=4 XP1", "X[P1+1]", "X1 ; tail",
+        "#COMMENT BEGIN", "#COMMENT END", "X1 X2", "G1 G0 X1", "x1", "X10 +5", "G4 X2", "D1",
+        "#VAR", "#ENDVAR", "/X9", "N5 N6 X1", "X1\\", "%late", "M30", "X1 I2", "G02 X1 I4", "F0",
+    ]
+)  # fmt: skip
+LINES = st.lists(st.one_of(PLAIN, PLAIN, PLAIN, OTHER), min_size=1, max_size=14)
+
+
+def outcome(machine, text, bulk, **options):
+    result = ncscope.run(machine, text, Options(bulk=bulk, **options))
+    found = [(d.id, d.message, d.line, d.column) for d in result.diagnostics]
+    return result, found
+
+
+def assert_equal(machine, text, **options):
+    fast, fast_found = outcome(machine, text, True, **options)
+    slow, slow_found = outcome(machine, text, False, **options)
+    assert fast_found == slow_found
+    assert (fast.ok, fast.axes, len(fast)) == (slow.ok, slow.axes, len(slow))
+    for name in ("line", "block", "motion"):
+        assert getattr(fast, name).tolist() == getattr(slow, name).tolist(), name
+    for name in ("feed", "pcs", "acs", "wcs", "mcs", "direction"):
+        np.testing.assert_allclose(
+            getattr(fast, name), getattr(slow, name), rtol=0, atol=1e-12, err_msg=name
+        )
+
+
+@settings(max_examples=150, deadline=None)
+@given(LINES, st.sampled_from(["\n", "\r\n"]), st.booleans())
+def test_lanes_agree_on_mixed_programs(lines, end, last):
+    assert_equal(FLAT, end.join(lines) + (end if last else ""))
+
+
+@settings(max_examples=60, deadline=None)
+@given(LINES, st.integers(0, 6))
+def test_lanes_agree_under_a_kinematics_and_a_block_limit(lines, limit):
+    text = "#KIN ID [91]\n#TRAFO ON\n" + "\n".join(lines) + "\n"
+    assert_equal(CA_HEAD, text, max_blocks=limit)
+
+
+@pytest.mark.parametrize("cut", range(0, 75, 3))
+def test_a_program_may_be_cut_anywhere(cut):
+    text = "N10 G1 X1.5 Y-2 F100\r\n\r\nN20 X3 A4\nN30 G91 X1\nN40 G90 Z-.5 C10.25\nM30\n"
+    assert_equal(FLAT, text[:cut])
+
+
+def test_plain_blocks_do_take_the_bulk_lane():
+    """Without this the tests above would compare the step lane with itself."""
+    text = "G1 F100 X0\n" + "".join(f"N{i} X{i}.5 Y-{i}\n" for i in range(200)) + "M30\n"
+    result = ncscope.run(FLAT, text)
+    assert len(result.stretches) == 1
+    assert result.pcs[200, :2].tolist() == [199.5, -199.0]
+    assert result.line[200] == 201
