@@ -37,6 +37,9 @@ OTHER = st.sampled_from(
         "#PSET X3", "#CS ON [1,2,3,0,0,30]", "#CS OFF", "P1=4 XP1", "X[P1+1]", "X1 ; tail",
         "#COMMENT BEGIN", "#COMMENT END", "X1 X2", "G1 G0 X1", "x1", "X10 +5", "G4 X2", "D1",
         "#VAR", "#ENDVAR", "/X9", "N5 N6 X1", "X1\\", "%late", "M30", "X1 I2", "G02 X1 I4", "F0",
+        "#ROTATION ON [ANGLE 30 CENTER1=5]", "#ROTATION OFF", "G68 R20", "G69", "G18", "G17", "G21",
+        "G20", "G351 Y-1", "#SCALE ON X2 Y3", "#SCALE OFF", "#MCS ON", "#MCS OFF", "G100 X5",
+        "#SUPPRESS OFFSETS X5", "#ACS ON [1,2,3,10]", "#ACS OFF", "G101 X1", "G74 X1", "G201 X1",
     ]
 )  # fmt: skip
 LINES = st.lists(st.one_of(PLAIN, PLAIN, PLAIN, OTHER), min_size=1, max_size=14)
@@ -61,7 +64,7 @@ def assert_equal(machine, text, **options):
         )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=300, deadline=None)
 @given(LINES, st.sampled_from(["\n", "\r\n"]), st.booleans())
 def test_lanes_agree_on_mixed_programs(lines, end, last):
     assert_equal(FLAT, end.join(lines) + (end if last else ""))

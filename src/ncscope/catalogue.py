@@ -131,8 +131,10 @@ CATALOGUE: dict[str, Entry] = {
     "21798": Entry("error", "The file begins with a byte order mark."),
     "21883": Entry("error", "A value overflows."),
     # Coordinate systems and offsets
+    "20038": Entry("error", "G201 needs at least one axis."),
     "20607": Entry("error", "#PSET and #PRESET cannot stand in a block with a motion function."),
     "20612": Entry("error", "#PSET is not allowed while a mirror is active."),
+    "20669": Entry("error", "#TLC and a transformation exclude each other."),
     "20675": Entry("error", "The values of a coordinate system are written wrongly."),
     "20774": Entry("error", "#ECS cannot be selected while another coordinate system is active."),
     "20805": Entry("error", "The command is not allowed while #MCS is active."),
@@ -180,6 +182,11 @@ CATALOGUE: dict[str, Entry] = {
     "N2021": Entry("error", "G20 to G23 and G351 together are not modelled."),
     "N2022": Entry("error", "A contour rotation inside #MCS is not modelled."),
     "N2023": Entry("warning", "#MCS is switched to the state that it already has."),
+    "N2024": Entry("note", "No probe answers; the measuring run goes to its target."),
+    "N2025": Entry("error", "A measuring offset that does not exist cannot be included or ended."),
+    "N2026": Entry("note", "Manual mode moves nothing: no jog increments are given."),
+    "N2027": Entry("error", "G74 needs at least one axis."),
+    "N2028": Entry("error", "A correction of the tool length is active already."),
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ncscope.channel import contour, offsets, tools
+from ncscope.channel import contour, manual, measuring, offsets, tools
 from ncscope.channel.commands import COMMANDS, LAST
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
@@ -323,8 +323,10 @@ def _centre_words(draft: Draft, words: Words) -> None:
 
 
 def _motion(draft: Draft, words: Words) -> None:
+    if 100 in words.gfunctions:
+        return _measure(draft, words)
     if not words.axes:
-        return
+        return None
     modes = draft.modes
     program = np.array(draft.state.position.program)
     for axis, (value, _span) in words.axes.items():
@@ -337,6 +339,19 @@ def _motion(draft: Draft, words: Words) -> None:
         draft.modal(feed_warned=True)
     draft.move_to(program, span)
     words.axes.clear()
+    return None
+
+
+def _measure(draft: Draft, words: Words) -> None:
+    """G100 X100: a feed motion to the target, where the probe triggers."""
+    word = words.gfunctions.pop(100)
+    if not words.axes:
+        draft.fail("N2025", word.span, "G100 needs at least one axis with its target")
+    axes, motion = tuple(words.axes), draft.modes.motion
+    draft.modal(motion="G01")
+    _motion(draft, words)
+    draft.modal(motion=motion)
+    measuring.record(draft, axes, word.span)
 
 
 def _check_modulo(draft: Draft, axis: int, words: Words, value: float) -> None:
@@ -373,9 +388,12 @@ RULES: tuple[Callable[[Draft, Words], None], ...] = (
     _zero_offset,
     _mask_group,
     _reference_point,
+    measuring.offset,
     _tool,
     _technology,
     _centre_words,
+    manual.jog,
+    manual.home,
     _motion,
     _end,
 )

@@ -109,12 +109,13 @@ def active_tool(state: State) -> ActiveTool:
     tool = state.tool
     record = tool.record
     n = len(state.axes)
+    places = (record.origin, tool.selected_at, tool.correction_at)
     return ActiveTool(
-        length=record.length,
+        length=record.length + tool.correction,
         axis_offsets=tuple(record.axis_offsets.get(i, 0.0) for i in range(n)),
         direction=_tool_direction(state, record),
         fixed=record.fixed,
-        origin=", ".join(dict.fromkeys(p for p in (record.origin, tool.selected_at) if p)) or None,
+        origin=", ".join(dict.fromkeys(p for p in places if p)) or None,
     )
 
 

@@ -60,12 +60,17 @@ class SystemDefinition:
 
 @dataclass(frozen=True, slots=True)
 class SelectedTool:
-    """The tool that acts: T and D words, and the record with what the program wrote into it."""
+    """The tool that acts: T and D words, and the record with what the program wrote into it.
+
+    correction: mm that #TLC adds to the length; correction_at: its place, None when it is off.
+    """
 
     place: int = 0
     record_index: int = 0
     record: Tool = field(default_factory=Tool)
     selected_at: str | None = None
+    correction: float = 0.0
+    correction_at: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +103,14 @@ class Suspended:
 
 
 @dataclass(frozen=True, slots=True)
+class Measured:
+    """A measured position and its difference to the target of G100; mm or degrees."""
+
+    value: float
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Stored:
     """One user variable: a number, a text, or an array with its dimensions."""
 
@@ -113,8 +126,8 @@ class State:
     axes: the channel configuration. variables: `P5`, `V.P.NAME` -> value. definitions: stored
     coordinate systems by kind (`#CS`, `#ACS`, `#BCS`) and id, in the order of their definition.
     parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
-    values that were programmed last for #ROTATION and #SCALE, by channel index. suspended: what
-    waits while #MCS is on.
+    values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
+    #MCS is on. measured: what G100 measured, by axis name.
     message_file: where #MSG SAVE writes.
     """
 
@@ -135,6 +148,7 @@ class State:
     scale_factors: Mapping[int, float] = field(default_factory=dict)
     suspended: Suspended | None = None
     system_mode: SystemMode = field(default_factory=SystemMode)
+    measured: Mapping[str, Measured] = field(default_factory=dict)
     message_file: str = "message.txt"
     block: int | None = None
 

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from ncscope.channel import offsets, user_variables
+from ncscope.channel import offsets, readers, user_variables
 from ncscope.channel.draft import BlockError, Draft
 from ncscope.coordinates import Offset
 from ncscope.diagnostics import Span
@@ -416,6 +416,13 @@ VARIABLES: dict[str, Row] = {
         _length(lambda d: d.state.tool.record.radius), _write_radius, "radius of the tool"
     ),
     **_axis_rows("V.G.WZ_AKT.V", Row(_read_tool_axis, _write_tool_axis, "axis offset of the tool")),
+    "V.G.WZ[].L": Row(
+        lambda d, r: readers.record(d, r).length / d.modes.length_factor, None, "length of a tool"
+    ),
+    "V.G.WZ[].R": Row(
+        lambda d, r: readers.record(d, r).radius / d.modes.length_factor, None, "radius of a tool"
+    ),
+    **_axis_rows("V.G.WZ[].V", Row(readers.record_axis, None, "axis offset of a tool")),
     **_axis_rows("V.G.NP[].V", Row(_read_np, _write_np, "zero offset of a group")),
     **_axis_rows(
         "V.G.NP_AKT.V", Row(_read_np_active, _write_np_active, "zero offset that is active")
@@ -449,6 +456,11 @@ VARIABLES: dict[str, Row] = {
     **_axis_rows("V.A.ACT_POS", Row(_programmed, None, "present value without offsets")),
     **_axis_rows("V.A.ACS.ABS", Row(_machine_axis, None, "axis position")),
     **_axis_rows("V.A.BZP", Row(_offset_reader("g92"), None, "reference point offset (G92)")),
+    **_axis_rows("V.A.MEIN", Row(_offset_reader("measure"), None, "measuring offset included")),
+    **_axis_rows("V.A.MESS", Row(readers.measured("value"), None, "measured value")),
+    **_axis_rows("V.A.MOFFS", Row(readers.measured("offset"), None, "measured value - target")),
+    **_axis_rows("V.A.MERF", Row(readers.was_measured, None, "1 when the axis has been measured")),
+    **_axis_rows("V.A.MANUAL_OFFSETS", Row(lambda d, r: 0.0, None, "manual offsets: no jog here")),
     **_axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),
 }
 """Every variable of the control that is known here, by pattern."""

@@ -4,9 +4,11 @@ Commands without effect on positions and commands that are refused stand in the 
 `language.commands`; what is in neither is unknown.
 """
 
+from ncscope.channel import manual
 from ncscope.channel.commands import (
     axes,
     contour,
+    length_correction,
     machine_system,
     messages,
     preset,
@@ -19,6 +21,8 @@ COMMANDS = {
     **systems.COMMANDS,
     **preset.COMMANDS,
     **machine_system.COMMANDS,
+    **length_correction.COMMANDS,
+    **manual.COMMANDS,
     **contour.COMMANDS,
     **transformation.COMMANDS,
     **axes.COMMANDS,

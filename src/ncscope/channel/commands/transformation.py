@@ -56,6 +56,9 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     held = draft.state.kinematics
     if draft.state.coordinates.kinematics is not None:
         return
+    if draft.state.tool.correction_at is not None:
+        what = "a transformation is not allowed while #TLC is active"
+        draft.fail("20669", command.span, what, "switch it off first (#TLC OFF)")
     parameters = _parameters(draft, command.span, held.selected)
     parameters = with_tool_parameters(parameters, draft.state.tool.record)
     settings = draft.machine.settings
