@@ -182,12 +182,10 @@ def test_layers_add_up_to_the_axes(data: st.DataObject) -> None:
         assert_close(before.values + after.change, after.values, size_of(c))
 
 
-@pytest.mark.xfail(strict=True, reason="explain loses the missing axes between two levels")
-def test_layers_add_up_in_a_channel_of_one_axis() -> None:
-    turned = Frame("level 0", "level 1", sequence_rotation((0, 0, 90), "ZYX", False))
-    moved = Frame("level 1", "level 2", shift=np.array([0.0, 1.0, 0.0]))
-    c = Coordinates(1, (BASE_LEVEL, Level("a", "#CS", turned), Level("b", "#CS", moved)))
-    assert_close(c.layers([0.0])[-1].values, c.to_axes([0.0]), 1.0)
+def test_coordinate_systems_need_three_main_axes() -> None:
+    level = Level("a", "#CS", Frame("level 0", "level 1"))
+    with pytest.raises(ValueError, match="three main axes"):
+        Coordinates(2, (BASE_LEVEL, level))
 
 
 @quick

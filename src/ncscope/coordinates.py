@@ -134,6 +134,13 @@ class Coordinates:
     kinematics: ActiveKinematics | None = None
     contour: Contour = NO_CONTOUR
 
+    def __post_init__(self) -> None:
+        """Raises ValueError for a coordinate system over fewer than three main axes."""
+        if len(self.levels) > 1 and self.axis_count < 3:
+            raise ValueError(
+                f"coordinate systems need three main axes; the channel has {self.axis_count}"
+            )
+
     # --- the three verbs -----------------------------------------------------------------------
 
     def to_axes(self, program: ArrayLike, near: ArrayLike | None = None) -> Array:

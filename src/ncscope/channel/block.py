@@ -16,9 +16,9 @@ from ncscope.channel.commands import COMMANDS, LAST
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
+from ncscope.channel.evaluation import evaluate_number, write_variable
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.state import State
-from ncscope.channel.variables import evaluate_number, write_variable
 from ncscope.channel.words import collect_axes, refuse_path_condition
 from ncscope.diagnostics import Diagnostic, Span
 from ncscope.language import tree

@@ -1,4 +1,4 @@
-"""NC variables: one table of what can be read and written, and the user's own variables.
+"""NC variables of the control: one table of what can be read and written.
 
 A pattern is the variable in capitals with `[]` for each index and `.<axis>` where an axis name
 stands. Lengths are in the programmed unit (mm, or inches under G70), angles in degrees,
@@ -8,22 +8,18 @@ Source: offsets sheet 5, nc_language sheet 5, FCT-C27 3.5.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from ncscope.channel import offsets, readers, user_variables
-from ncscope.channel.draft import BlockError, Draft
+from ncscope.channel import offsets, readers
+from ncscope.channel.draft import Draft
 from ncscope.coordinates import Offset
 from ncscope.diagnostics import Span
 from ncscope.kinematics.parameters import PARAMETER_COUNT, KinematicParameters, field_index
-from ncscope.language import tree
-from ncscope.language.expressions import EvaluationError, evaluate, indices_of
 from ncscope.machine import ZERO_GROUPS, OffsetRecord
 
 Value = float | str
-Node = tree.Variable | tree.Parameter | tree.CycleParameter
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,142 +43,6 @@ class Row(NamedTuple):
     read: Callable[[Draft, Reference], Value]
     write: Callable[[Draft, Reference, float], None] | None
     meaning: str
-
-
-# --- evaluation --------------------------------------------------------------------------------
-
-
-class Environment:
-    """What an expression sees: the draft of the running block."""
-
-    def __init__(self, draft: Draft) -> None:
-        self.draft = draft
-
-    def read(self, node: Node, indices: tuple[int, ...]) -> Value:
-        return _read(self.draft, node, indices)
-
-    def exists(self, node: Node, indices: tuple[int, ...]) -> bool:
-        try:
-            _read(self.draft, node, indices)
-        except BlockError:
-            return False
-        return True
-
-    def size(self, node: Node, indices: tuple[int, ...], dimension: int) -> int:
-        return user_variables.size(self.draft, node, indices, dimension)
-
-    def macro(self, name: str) -> str | None:
-        return self.draft.state.macros.get(name)
-
-
-def indices(draft: Draft, node: Node) -> tuple[int, ...]:
-    """The evaluated indices of a variable, in the order in which they are written."""
-    try:
-        return indices_of(node, Environment(draft))
-    except EvaluationError as error:
-        raise BlockError(error.diagnostic) from error
-
-
-def evaluate_value(draft: Draft, expression: tree.Expression) -> Value:
-    """The value of an expression; fails the block where it has none."""
-    if isinstance(expression, tree.Number):
-        return expression.value
-    try:
-        return evaluate(expression, Environment(draft))
-    except EvaluationError as error:
-        raise BlockError(error.diagnostic) from error
-
-
-def evaluate_number(draft: Draft, expression: tree.Expression) -> float:
-    value = evaluate_value(draft, expression)
-    if isinstance(value, str):
-        draft.fail("20392", expression.span, "a number is needed here, not a text")
-    if not math.isfinite(value):
-        draft.fail("21883", expression.span, "the value is too large")
-    return value
-
-
-# --- access ------------------------------------------------------------------------------------
-
-
-def _read(draft: Draft, node: Node, numbers: tuple[int, ...]) -> Value:
-    if isinstance(node, tree.CycleParameter):
-        draft.fail("N2001", node.span, "cycle parameters (@P) are not supported yet")
-    if user_variables.is_user(node):
-        return user_variables.read(draft, node, numbers)
-    assert isinstance(node, tree.Variable)
-    row, reference = _find(draft, node, numbers)
-    return row.read(draft, reference)
-
-
-def write_variable(draft: Draft, word: tree.Assignment) -> None:
-    """`target = value`, `+=` and the rest; the change counts for the words that follow."""
-    node = word.target
-    if isinstance(node, tree.CycleParameter):
-        draft.fail("N2001", node.span, "cycle parameters (@P) are not supported yet")
-    if isinstance(node, tree.Variable) and _is_record(node):
-        return _write_record(draft, node, word)
-    numbers = indices(draft, node)
-    value = evaluate_value(draft, word.value)
-    if word.operator != "=":
-        value = _combined(draft, word, _read(draft, node, numbers), value)
-    if user_variables.is_user(node):
-        return user_variables.write(draft, node, numbers, value)
-    assert isinstance(node, tree.Variable)
-    row, reference = _find(draft, node, numbers)
-    if row.write is None:
-        draft.fail("20100", node.span, f"{reference.text} can only be read")
-    if isinstance(value, str):
-        draft.fail("20392", word.value.span, "a number is needed here, not a text")
-    row.write(draft, reference, value)
-    return None
-
-
-def _combined(draft: Draft, word: tree.Assignment, old: Value, value: Value) -> Value:
-    if isinstance(old, str) and isinstance(value, str) and word.operator == "+=":
-        return old + value
-    if isinstance(old, str) or isinstance(value, str):
-        draft.fail("20392", word.value.span, "a text and a number cannot be combined")
-    if word.operator == "/=":
-        if abs(value) < 1e-15:
-            draft.fail("20574", word.value.span, "division by zero")
-        return old / value
-    return {"+=": old + value, "-=": old - value, "*=": old * value}[word.operator]
-
-
-def _find(draft: Draft, node: tree.Variable, numbers: tuple[int, ...]) -> tuple[Row, Reference]:
-    """The table row of a variable. Axis variables may end in an axis name or an index."""
-    names = [part.name.upper() + "[]" * len(part.indices) for part in node.parts]
-    key = ".".join(names)
-    reference = Reference(node.span.text.strip(), numbers, node.span)
-    if key.startswith("V.G.KIN[].") and len(numbers) >= 1:
-        return VARIABLES["V.G.KIN[].<field>"], replace(reference, field=_field(node, numbers))
-    if key in VARIABLES:
-        return _by_index(draft, key, reference)
-    pattern = ".".join(names[:-1]) + ".<axis>"
-    if pattern in VARIABLES and not node.parts[-1].indices:
-        axis = draft.axis_index(node.parts[-1].name, node.span, "20092")
-        return VARIABLES[pattern], replace(reference, axis=axis)
-    draft.fail("20196", node.span, f"the variable {reference.text} is unknown")
-
-
-def _by_index(draft: Draft, key: str, reference: Reference) -> tuple[Row, Reference]:
-    """A pattern that ends in `[]` next to one that ends in `.<axis>` counts channel axes."""
-    if key.endswith("[]") and key[:-2] + ".<axis>" in VARIABLES:
-        axis = reference.numbers[-1]
-        if not 0 <= axis < len(draft.state.axes):
-            draft.fail("20092", reference.span, f"the channel has no axis with index {axis}")
-        return VARIABLES[key], replace(reference, axis=axis)
-    return VARIABLES[key], reference
-
-
-def _field(node: tree.Variable, numbers: tuple[int, ...]) -> str:
-    rest, used = [], len(node.parts[2].indices)
-    for part in node.parts[3:]:
-        indices = numbers[used : used + len(part.indices)]
-        used += len(part.indices)
-        rest.append(part.name.lower() + "".join(f"[{i}]" for i in indices))
-    return ".".join(rest)
 
 
 # --- kinematics --------------------------------------------------------------------------------
@@ -264,7 +124,7 @@ def _read_tool_axis(draft: Draft, ref: Reference) -> float:
 # --- zero offsets ------------------------------------------------------------------------------
 
 
-def _group(draft: Draft, ref: Reference) -> int:
+def group_index(draft: Draft, ref: Reference) -> int:
     index = ref.numbers[0]
     if not 0 <= index < ZERO_GROUPS:
         draft.fail("20906", ref.span, f"zero offset groups are 0 to {ZERO_GROUPS - 1}, not {index}")
@@ -272,25 +132,25 @@ def _group(draft: Draft, ref: Reference) -> int:
 
 
 def _read_np(draft: Draft, ref: Reference) -> float:
-    record = draft.state.zero_offsets.groups.get(_group(draft, ref), OffsetRecord())
+    record = draft.state.zero_offsets.groups.get(group_index(draft, ref), OffsetRecord())
     return draft.shown(ref.axis, record.values.get(ref.axis, 0.0))
 
 
 def _write_np(draft: Draft, ref: Reference, value: float) -> None:
-    index = _group(draft, ref)
+    index = group_index(draft, ref)
     record = draft.state.zero_offsets.groups.get(index, OffsetRecord())
     values = {**record.values, ref.axis: draft.length(ref.axis, value)}
     origins = {**record.origins, ref.axis: draft.place}
-    _store_group(draft, index, replace(record, values=values, origins=origins))
+    store_group(draft, index, replace(record, values=values, origins=origins))
 
 
-def _store_group(draft: Draft, index: int, record: OffsetRecord) -> None:
+def store_group(draft: Draft, index: int, record: OffsetRecord) -> None:
     table = draft.state.zero_offsets
     groups = {**table.groups, index: record}
     draft.state = replace(draft.state, zero_offsets=replace(table, groups=groups))
 
 
-def _active_zero(draft: Draft) -> Offset:
+def active_zero(draft: Draft) -> Offset:
     n = len(draft.state.axes)
     held = draft.state.coordinates.top.offset("zero")
     name = offsets.zero_name(draft.state.zero_index)
@@ -298,66 +158,18 @@ def _active_zero(draft: Draft) -> Offset:
 
 
 def _read_np_active(draft: Draft, ref: Reference) -> float:
-    return draft.shown(ref.axis, _active_zero(draft).values[ref.axis])
+    return draft.shown(ref.axis, active_zero(draft).values[ref.axis])
 
 
 def _write_np_active(draft: Draft, ref: Reference, value: float) -> None:
     values = {ref.axis: draft.length(ref.axis, value)}
-    name = _active_zero(draft).name
+    name = active_zero(draft).name
     draft.state = offsets.set_offsets(draft.state, "zero", name, values, draft.place)
 
 
 def _write_np_default(draft: Draft, ref: Reference, value: float) -> None:
     table = replace(draft.state.zero_offsets, default_index=round(value))
     draft.state = replace(draft.state, zero_offsets=table)
-
-
-def _is_record(node: tree.Variable) -> bool:
-    """`V.G.NP[i].ALL`, `V.G.NP_AKT.ALL`: all axes of a record at once."""
-    names = [part.name.upper() for part in node.parts]
-    return names[:2] == ["V", "G"] and names[-1] == "ALL"
-
-
-def _record_values(draft: Draft, expression: tree.Expression) -> list[float]:
-    """The sum of records; single-axis items and constants may not be mixed in."""
-    if isinstance(expression, tree.Binary) and expression.operator in "+-":
-        left = _record_values(draft, expression.left)
-        right = _record_values(draft, expression.right)
-        sign = 1.0 if expression.operator == "+" else -1.0
-        return [a + sign * b for a, b in zip(left, right, strict=True)]
-    if not isinstance(expression, tree.Variable) or not _is_record(expression):
-        draft.fail(
-            "20392",
-            expression.span,
-            "a record can only be combined with records (.ALL)",
-            "write single axes as V.G.NP[..].V.X",
-        )
-    if expression.parts[2].name.upper() == "NP_AKT":
-        return list(_active_zero(draft).values)
-    index = round(evaluate_number(draft, expression.parts[2].indices[0]))
-    record = draft.state.zero_offsets.groups.get(index, OffsetRecord())
-    return [record.values.get(i, 0.0) for i in range(len(draft.state.axes))]
-
-
-def _write_record(draft: Draft, node: tree.Variable, word: tree.Assignment) -> None:
-    values = _record_values(draft, word.value)
-    if word.operator in ("+=", "-="):
-        sign = 1.0 if word.operator == "+=" else -1.0
-        values = [o + sign * v for o, v in zip(_record_values(draft, node), values, strict=True)]
-    elif word.operator != "=":
-        draft.fail("20573", word.span, "records know =, += and -= only")
-    indexed = dict(enumerate(values))
-    if node.parts[2].name.upper() == "NP_AKT":
-        name = _active_zero(draft).name
-        draft.state = offsets.set_offsets(draft.state, "zero", name, indexed, draft.place)
-        return
-    ref = Reference(
-        node.span.text, (round(evaluate_number(draft, node.parts[2].indices[0])),), node.span
-    )
-    index = _group(draft, ref)
-    record = draft.state.zero_offsets.groups.get(index, OffsetRecord())
-    origins = dict.fromkeys(indexed, draft.place)
-    _store_group(draft, index, replace(record, values=indexed, origins=origins))
 
 
 # --- axis values -------------------------------------------------------------------------------

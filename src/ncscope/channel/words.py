@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ncscope.channel.draft import Draft
-from ncscope.channel.variables import evaluate_number
+from ncscope.channel.evaluation import evaluate_number
 from ncscope.diagnostics import Span
 from ncscope.language import tree
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
+from ncscope.channel.evaluation import evaluate_number
 from ncscope.channel.state import Position, State
-from ncscope.channel.variables import evaluate_number
 from ncscope.coordinates import Level, Offset
 from ncscope.language import tree
 from ncscope.machine import MAX_CHANNEL_AXES, Axis, is_rotary_name

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ncscope.channel.contour import set_contour, turn_off, turn_on
 from ncscope.channel.draft import Draft
-from ncscope.channel.variables import evaluate_number
+from ncscope.channel.evaluation import evaluate_number
 from ncscope.channel.words import axis_values
 from ncscope.contour import Turn
 from ncscope.language import tree

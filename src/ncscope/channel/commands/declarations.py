@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ncscope.channel import user_variables
 from ncscope.channel.draft import Draft
-from ncscope.channel.variables import evaluate_value, indices
+from ncscope.channel.evaluation import evaluate_value, indices
 from ncscope.language import tree
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
-from ncscope.channel.variables import evaluate_number
+from ncscope.channel.evaluation import evaluate_number
 from ncscope.language import tree
 
 

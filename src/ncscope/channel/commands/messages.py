@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 from ncscope.channel.draft import Draft, Message
-from ncscope.channel.variables import evaluate_value
+from ncscope.channel.evaluation import evaluate_value
 from ncscope.language import tree
 
 FORMAT_ITEM = re.compile(r"%(.?)")

@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from ncscope.channel.draft import Draft
+from ncscope.channel.evaluation import evaluate_number
 from ncscope.channel.state import SystemDefinition
-from ncscope.channel.variables import evaluate_number
 from ncscope.coordinates import Level
 from ncscope.diagnostics import Span
 from ncscope.frames import ROTATION_SEQUENCES, Frame, sequence_rotation

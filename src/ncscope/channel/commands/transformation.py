@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ncscope.channel.draft import Draft
+from ncscope.channel.evaluation import evaluate_number
 from ncscope.channel.tools import with_tool_parameters
-from ncscope.channel.variables import evaluate_number
 from ncscope.coordinates import ActiveKinematics
 from ncscope.diagnostics import Span
 from ncscope.kinematics.chain import Fault, validate
