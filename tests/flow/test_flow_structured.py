@@ -67,7 +67,10 @@ def test_for_that_never_begins():
 
 
 def test_while_tests_first():
-    assert xs("P1=0\n$WHILE P1 < 2\nP1+=1\nXP1\n$ENDWHILE\n$WHILE 0\nX9\n$ENDWHILE\nM30\n") == [1, 2]
+    assert xs("P1=0\n$WHILE P1 < 2\nP1+=1\nXP1\n$ENDWHILE\n$WHILE 0\nX9\n$ENDWHILE\nM30\n") == [
+        1,
+        2,
+    ]
 
 
 def test_do_and_repeat_test_last():
@@ -85,7 +88,8 @@ def test_break_and_continue():
 
 
 @pytest.mark.parametrize(
-    "loop", ["$WHILE P1 < 3\n{}$ENDWHILE\n", "$DO\n{}$ENDDO P1 < 3\n", "$REPEAT\n{}$UNTIL P1 >= 3\n"]
+    "loop",
+    ["$WHILE P1 < 3\n{}$ENDWHILE\n", "$DO\n{}$ENDDO P1 < 3\n", "$REPEAT\n{}$UNTIL P1 >= 3\n"],
 )
 def test_continue_goes_to_the_test(loop):
     assert xs("P1=0\n" + loop.format("P1+=1\nXP1\n$CONTINUE\nX99\n") + "M30\n") == [1, 2, 3]

@@ -94,10 +94,11 @@ class Walker:
         return draft.state, tuple(draft.diagnostics)
 
     def _target(self, draft: Draft, entry: Entry) -> int:
-        keyword, control, at = entry.keyword, entry.block.control, self.at
+        keyword, at = entry.keyword, self.at
         if keyword == "GOTO":
-            return self._goto(draft, control)
-        if keyword == "IF" and jumps(control):
+            return self._goto(draft, _control(entry))
+        if keyword == "IF" and jumps(entry.block.control):
+            control = _control(entry)
             return self._goto(draft, control) if _true(draft, control.values[0]) else at + 1
         statement = self.layout.statements[at]
         match keyword:
@@ -110,8 +111,10 @@ class Walker:
             case "BREAK":
                 return self._behind(draft, statement, ran=True)
             case "CONTINUE":
-                return self._behind(draft, statement, True) - 1 if statement.end is None else (
-                    statement.end
+                return (
+                    self._behind(draft, statement, True) - 1
+                    if statement.end is None
+                    else (statement.end)
                 )
             case "FOR" | "WHILE" | "DO" | "REPEAT":
                 return self._begin(draft, statement)
@@ -142,7 +145,7 @@ class Walker:
 
     def _switch(self, draft: Draft, statement: Statement) -> int:
         entries, default = self.layout.entries, None
-        value = evaluate_number(draft, _condition(entries[statement.first]))
+        value = evaluate_number(draft, _control(entries[statement.first]).values[0])
         for at in statement.branches:
             case = _condition(entries[at])
             if case is None:
@@ -155,7 +158,7 @@ class Walker:
 
     def _begin(self, draft: Draft, statement: Statement) -> int:
         self.passes[self.layout.source.name, statement.first] = 0
-        control = self.layout.entries[statement.first].block.control
+        control = _control(self.layout.entries[statement.first])
         if statement.keyword == "FOR":
             write_variable(draft, _assignment(control, "=", control.values[0]))
             if evaluate_number(draft, control.values[2]) == 0:
@@ -174,14 +177,13 @@ class Walker:
 
     def _again(self, draft: Draft, statement: Statement) -> int:
         entries = self.layout.entries
-        control = entries[statement.first].block.control
-        ending = entries[statement.end].block.control
+        control = _control(entries[statement.first])
         if statement.keyword == "FOR":
             write_variable(draft, _assignment(control, "+=", control.values[2]))
         if statement.keyword in ("DO", "REPEAT"):
-            again = _true(draft, ending.values[0]) == (statement.keyword == "DO")
-            if not again:
-                return statement.end + 1
+            ending = _control(entries[self.at])
+            if _true(draft, ending.values[0]) != (statement.keyword == "DO"):
+                return self.at + 1
         return self._pass(draft, statement, control)
 
     def blamed(self) -> Span | None:
@@ -225,8 +227,10 @@ class Walker:
         if len(self.calls) >= MOST_CALLS:
             message = f"subprogram calls are nested more than {MOST_CALLS} deep"
             draft.fail("20371", call.span, message)
-        found = self._local(draft, call, name) if call.kind == "LL" else (
-            self._global(draft, call, name)
+        found = (
+            self._local(draft, call, name)
+            if call.kind == "LL"
+            else (self._global(draft, call, name))
         )
         state = draft.state
         kept = {k: v for k, v in state.variables.items() if k.startswith("V.L.")}
@@ -293,6 +297,11 @@ def _condition(entry: Entry) -> tree.Expression | None:
     return entry.block.commands[0].value
 
 
+def _control(entry: Entry) -> tree.Control:
+    assert entry.block.control is not None
+    return entry.block.control
+
+
 def _true(draft: Draft, expression: tree.Expression) -> bool:
     return abs(evaluate_number(draft, expression)) >= 0.5
 
@@ -302,6 +311,7 @@ def _counts(draft: Draft, control: tree.Control) -> bool:
     step = evaluate_number(draft, control.values[2])
     if step == 0:
         return True
+    assert control.target is not None
     at, last = evaluate_number(draft, control.target), evaluate_number(draft, control.values[1])
     return at <= last if step > 0 else at >= last
 

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
+from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.language.parser import iterate_blocks
-from ncscope.language.tree import Block, Call, Control, Number
+from ncscope.language.tree import Block, Call, Control
 
 Diagnostics = tuple[Diagnostic, ...]
 Level = tuple[int, int]
@@ -138,8 +138,6 @@ def _entry(block: Block, found: Diagnostics) -> Entry:
 
 
 def _behind_call(call: Call, span: Span) -> Diagnostic:
-    from ncscope.diagnostics import Severity
-
     message = f"What follows the call {call.kind} in its line is not executed."
     hint = "put it on a line of its own"
     return diagnostic("20209", span, message, hint, severity=Severity.WARNING)
@@ -148,9 +146,8 @@ def _behind_call(call: Call, span: Span) -> Diagnostic:
 def _levels(entries: tuple[Entry, ...]) -> tuple[Level | None, dict[str, Level]]:
     """The main program and the subprograms; of two with one name the first counts."""
     heads = [i for i, e in enumerate(entries) if e.block.header is not None]
-    main: Level | None = (0, heads[0] if heads else len(entries))
-    if main[0] == main[1]:
-        main = None
+    first = heads[0] if heads else len(entries)
+    main: Level | None = (0, first) if first else None
     subprograms: dict[str, Level] = {}
     for at, stop in zip(heads, [*heads[1:], len(entries)], strict=False):
         header = entries[at].block.header or ""
@@ -272,6 +269,4 @@ def shown(keyword: str) -> str:
 
 def jumps(control: Control | None) -> bool:
     """Whether `$IF` is the one-line form with $GOTO."""
-    return control is not None and (
-        isinstance(control.target, Number) or control.target is not None or len(control.values) > 1
-    )
+    return control is not None and (control.target is not None or len(control.values) > 1)
