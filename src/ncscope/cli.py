@@ -179,8 +179,10 @@ def check_command(
 def _run(
     path: Path, machine_path: Path | None, options, strict: bool = False
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
+    from dataclasses import replace
+
     from ncscope.execution import run
-    from ncscope.loading import load_program
+    from ncscope.loading import load_program, subprogram_loader
     from ncscope.trajectory import Trajectory
 
     machine, found = _machine(machine_path)
@@ -193,6 +195,7 @@ def _run(
         _fail(f"cannot read {path}: {error.strerror}")
     if any(d.is_error for d in found):  # on the wrong machine every number would be wrong
         return Trajectory((), machine.axis_names, ok=False), found, program
+    options = replace(options, load=subprogram_loader([path.parent]))
     with _progress(len(program.source.text)) as progress:
         result = run(machine, program, options, progress)
     return result, found, program

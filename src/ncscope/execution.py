@@ -6,19 +6,25 @@ touches files: messages are values of the result.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from ncscope.channel.block import Step, execute
 from ncscope.channel.bulk import advance
 from ncscope.channel.draft import Message
+from ncscope.channel.flow import Load, Walker, open_warnings
 from ncscope.channel.start import start_state
 from ncscope.channel.state import State
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.language import BlockReader, tree
 from ncscope.language.scanner import Scanner
+from ncscope.language.structure import layout, needs_layout
 from ncscope.machine import Machine
 from ncscope.trajectory import Recorder, Trajectory
+
+Progress = Callable[[int], None]
+MOST_BLOCKS = 10_000_000
+"""Executed blocks after which a program with loops ends, where no limit is given."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +34,8 @@ class Options:
     clamp: clamp position handed over at program start. skip: skip levels that are switched on.
     max_blocks: blocks after which the run stops, 0 for no limit. strict: a warning stops too.
     bulk: plain blocks are taken many at a time; the result is the same without.
+    load: the text of a subprogram file that the program calls, None where there is none; without
+    it no file is found.
     """
 
     clamp: int | None = None
@@ -35,6 +43,7 @@ class Options:
     max_blocks: int = 0
     strict: bool = False
     bulk: bool = True
+    load: Load | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +74,7 @@ def run(
     machine: Machine,
     program: Program | str,
     options: Options | None = None,
-    progress: Callable[[int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Trajectory:
     """Every motion block of the program, in all coordinate systems.
 
@@ -76,7 +85,16 @@ def run(
     options = options or Options()
     source = program.source if isinstance(program, Program) else Source("program", program)
     loop = _Loop(machine, source, options)
-    reader = BlockReader(source)
+    if needs_layout(source):
+        _walk(loop, progress)
+    else:
+        _stream(loop, progress)
+    return loop.result()
+
+
+def _stream(loop: _Loop, progress: Progress | None) -> None:
+    """A program whose blocks follow each other: read as it runs, plain blocks in bulk."""
+    reader = BlockReader(loop.source)
     blocks = iter(reader)
     while not loop.over:
         loop.take_plain(reader)
@@ -84,9 +102,52 @@ def run(
         if block is None:
             break
         loop.take(block, found)
+        if loop.returned is not None:
+            loop.add([_return_in_main(loop.returned)])
         if progress is not None:
             progress(reader.at)
-    return loop.result()
+
+
+def _walk(loop: _Loop, progress: Progress | None) -> None:
+    """A program with control statements or calls: read once, then walked."""
+    table = layout(loop.source, loop.options.skip)
+    loop.add(table.diagnostics)
+    if table.main is None and table.entries:
+        message = "the file has subprograms only: a main program begins with % and its name"
+        loop.add([diagnostic("20368", table.entries[0].block.span, message)])
+    walker = Walker(loop.machine, table, loop.options.load, loop.options.skip)
+    while not loop.over:
+        entry = walker.entry
+        if entry is None:
+            if not walker.calls:
+                break
+            loop.state = walker.leave(loop.state)
+            continue
+        loop.blamed = walker.blamed
+        if entry.keyword and not entry.block.words:
+            loop.meet(entry.block, entry.found)
+        else:
+            loop.take(entry.block, entry.found)
+        if not loop.over:
+            _go_on(loop, walker)
+        if progress is not None and not walker.calls:
+            progress(entry.block.span.start)
+    if loop.ended and walker.calls:
+        assert entry is not None
+        loop.add([diagnostic("20377", entry.block.span, "the program ends inside a subprogram")])
+    if not loop.log.stop:
+        loop.add(open_warnings(walker))
+
+
+def _go_on(loop: _Loop, walker: Walker) -> None:
+    """The jump, call or return behind the words of a block."""
+    if loop.returned is None:
+        loop.state, found = walker.step(loop.state)
+        loop.add(found)
+    elif walker.calls:
+        loop.state = walker.leave(loop.state)
+    else:
+        loop.add([_return_in_main(loop.returned)])
 
 
 class _Loop:
@@ -99,6 +160,8 @@ class _Loop:
         self.messages: list[Message] = []
         self.count = 0
         self.ended = False
+        self.returned: Span | None = None
+        self.blamed: Callable[[], Span | None] | None = None
         self.scanner: Scanner | None = None
 
     @property
@@ -107,19 +170,28 @@ class _Loop:
 
     def take(self, block: tree.Block, found: tuple[Diagnostic, ...]) -> None:
         """One block in the step lane."""
-        for item in found:
-            self.log.add(item, self.options.strict)
-        if self.log.stop or _skipped(block, self.options) or not self._counted(block.span):
+        self.returned = None
+        if not self.meet(block, found):
             return
         before, step = self.state, execute(self.machine, self.state, block)
         self.state = step.state
         _record(self.recorder, before, step, block)
         self.messages.extend(step.messages)
-        for item in step.diagnostics:
-            self.log.add(item, self.options.strict)
-        self.ended = step.ended
+        self.add(step.diagnostics)
+        self.ended, self.returned = step.ended, step.returned
         if step.state.axes is not before.axes:
             self.scanner = None
+
+    def meet(self, block: tree.Block, found: Iterable[Diagnostic]) -> bool:
+        """Whether a block that was reached is to be executed; says what was found in it."""
+        self.returned = None
+        self.add(found)
+        return not (self.log.stop or _skipped(block, self.options)) and self._counted(block.span)
+
+    def add(self, found: Iterable[Diagnostic]) -> None:
+        """Diagnostics of the run, in order."""
+        for item in found:
+            self.log.add(item, self.options.strict)
 
     def take_plain(self, reader: BlockReader) -> None:
         """All plain blocks that follow, in the bulk lane."""
@@ -142,8 +214,10 @@ class _Loop:
 
     def _counted(self, span: Span) -> bool:
         self.count += 1
-        if self.options.max_blocks and self.count > self.options.max_blocks:
-            self.log.add(_too_many(self.options, span), self.options.strict)
+        limit = self.options.max_blocks or (MOST_BLOCKS if self.blamed is not None else 0)
+        if limit and self.count > limit:
+            blamed = self.blamed() if self.blamed is not None else None
+            self.add([_too_many(limit, span, blamed)])
             return False
         return True
 
@@ -158,6 +232,7 @@ class _Loop:
             tuple(self.messages),
             not self.log.stop,
             self.recorder.places,
+            self.source.name,
         )
 
 
@@ -173,7 +248,7 @@ def _record(recorder: Recorder, before: State, step: Step, block: tree.Block) ->
             start = move.axes
         recorder.add(move.coordinates or state.coordinates, state.axis_names, move, start)
         start = move.axes
-    if not step.moves:
+    if not step.moves and block.span.source.name == recorder.file:
         recorder.visit(
             block.span.line,
             state.block,
@@ -184,13 +259,23 @@ def _record(recorder: Recorder, before: State, step: Step, block: tree.Block) ->
         )
 
 
-def _too_many(options: Options, span: Span) -> Diagnostic:
+def _too_many(limit: int, span: Span, loop: Span | None) -> Diagnostic:
+    if loop is not None:
+        message = f"more than {limit} blocks were executed: the loop in line {loop.line} goes on"
+        notes = (("the loop", loop),)
+        hint = "check how the loop ends, or raise --max-blocks"
+        return diagnostic("N4001", span, message, hint, notes=notes)
     return diagnostic(
         "N4001",
         span,
-        f"the program has more than {options.max_blocks} blocks",
+        f"the program has more than {limit} blocks",
         "raise --max-blocks, or leave it out for no limit",
     )
+
+
+def _return_in_main(span: Span) -> Diagnostic:
+    hint = "the main program ends with M30"
+    return diagnostic("20376", span, "M17 and M29 return from a subprogram", hint)
 
 
 def _no_end(source: Source) -> Diagnostic:

@@ -104,6 +104,7 @@ class Trajectory:
     messages: tuple[Any, ...] = ()
     ok: bool = True
     _places: Mapping[int, tuple] = field(default_factory=dict, repr=False)
+    _file: str = ""
 
     def __len__(self) -> int:
         return sum(len(s) for s in self.stretches)
@@ -165,13 +166,14 @@ class Trajectory:
         return self
 
     def explain(self, line: int) -> Explanation:
-        """The layers at a line of the program; of several runs of the line, the last.
+        """The layers at a line of the main program; of several runs of the line, the last.
 
         Raises KeyError, naming the nearest line, when the line was not executed.
         """
         found = self._last_row(line) or self._places.get(line)
         if found is None:
-            executed = [*self._places, *(int(v) for s in self.stretches for v in np.unique(s.line))]
+            lines = [s.line for s in self.stretches if self._is_main(s)]
+            executed = [*self._places, *(int(v) for column in lines for v in np.unique(column))]
             near = min(executed, key=lambda other: abs(other - line), default=None)
             hint = f"; the nearest is line {near}" if near is not None else ""
             raise KeyError(f"line {line} was not executed{hint}")
@@ -183,7 +185,7 @@ class Trajectory:
         """The line of the block with this N number that was executed last; KeyError without."""
         for s in reversed(self.stretches):
             rows = np.flatnonzero(s.block == number)
-            if len(rows):
+            if len(rows) and self._is_main(s):
                 return int(s.line[rows[-1]])
         lines = [line for line, place in self._places.items() if place[3] == number]
         if not lines:
@@ -229,12 +231,15 @@ class Trajectory:
     def _last_row(self, line: int) -> tuple | None:
         for s in reversed(self.stretches):
             rows = np.flatnonzero(s.line == line)
-            if len(rows):
+            if len(rows) and self._is_main(s):
                 i = int(rows[-1])
                 block = None if s.block[i] == NO_BLOCK else int(s.block[i])
                 near = s.acs[i - 1] if i else s.start
                 return s.coordinates, s.axes, s.file, block, s.pcs[i], near
         return None
+
+    def _is_main(self, s: Stretch) -> bool:
+        return not self._file or s.file == self._file
 
     def _column(self, pick: Callable[[Stretch], Any], dtype: Any) -> Any:
         parts = [pick(s) for s in self.stretches]
@@ -260,7 +265,7 @@ class Recorder:
         self.axes: list[str] = []
         self.moves = 0
         self.places: dict[int, tuple] = {}
-        self._open: tuple[Coordinates, tuple[str, ...], Array] | None = None
+        self._open: tuple[Coordinates, tuple[str, ...], Array, str] | None = None
         self._rows: list[tuple] = []
         self._pcs: list[Array] = []
         self._acs: list[Array] = []
@@ -269,9 +274,12 @@ class Recorder:
         self, coordinates: Coordinates, axes: tuple[str, ...], move: Move, start: Array
     ) -> None:
         """One move; `start` are the axis positions before it."""
-        if self._open is None or self._open[0] is not coordinates or self._open[1] != axes:
+        file = move.span.source.name
+        if self._open is None or (
+            self._open[0] is not coordinates or self._open[1] != axes or self._open[3] != file
+        ):
             self.close()
-            self._open = (coordinates, axes, start)
+            self._open = (coordinates, axes, start, file)
         self._rows.append(
             (
                 move.span.line,
@@ -301,14 +309,14 @@ class Recorder:
     def close(self) -> None:
         if self._open is None:
             return
-        coordinates, axes, start = self._open
+        coordinates, axes, start, file = self._open
         self._name_axes(axes)
         lines, blocks, motions, feeds = zip(*self._rows, strict=True)
         self.stretches.append(
             Stretch(
                 coordinates,
                 axes,
-                self.file,
+                file,
                 np.array(lines, dtype=np.int64),
                 np.array(blocks, dtype=np.int64),
                 np.array(motions, dtype=np.int8),

@@ -29,13 +29,17 @@ from ncscope.motion import Move
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What one block did. `ended`: the program is over (M02, M30)."""
+    """What one block did.
+
+    ended: the span of M02 or M30 was reached. returned: where M17 or M29 stands, None without.
+    """
 
     state: State
     moves: tuple[Move, ...] = ()
     messages: tuple[Message, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
     ended: bool = False
+    returned: Span | None = None
 
     @property
     def failed(self) -> bool:
@@ -67,6 +71,7 @@ def execute(machine: Machine, state: State, block: tree.Block) -> Step:
         tuple(draft.messages),
         tuple(draft.diagnostics),
         draft.ended,
+        draft.returned,
     )
 
 
@@ -94,10 +99,6 @@ def _execute(draft: Draft, block: tree.Block) -> None:
 
 
 def _refuse_flow(draft: Draft, block: tree.Block) -> None:
-    if block.header is not None and block.header.startswith("L "):
-        _later(draft, block.span, "a local subprogram (%L)")
-    if block.control is not None:
-        _later(draft, block.control.span, f"${block.control.keyword}")
     for word in block.words:
         if isinstance(word, tree.Call):
             _later(draft, word.span, f"a subprogram call ({word.kind})")
@@ -141,6 +142,8 @@ def _collect(draft: Draft, words: tuple[tree.Word, ...]) -> Words:
                 _collect_g(draft, collected, word)
             case tree.MWord():
                 number = round(evaluate_number(draft, word.number))
+                if number in (17, 29) and word.arguments:
+                    _later(draft, word.span, f"M{number} with brackets")
                 collected.mfunctions[number] = word.span
             case tree.AddressWord():
                 _collect_address(draft, collected, word)
@@ -298,7 +301,7 @@ def _technology(draft: Draft, words: Words) -> None:
             _end_feed(draft, *word)
     for number, span in words.mfunctions.items():
         if number in (17, 29):
-            _later(draft, span, f"M{number} (return from a subprogram)")
+            draft.returned = span
         elif number not in KNOWN_M:
             draft.warn("N2002", span, f"M{number:02d} is taken as without effect on positions")
 

@@ -50,6 +50,7 @@ class Draft:
     messages: list[Message] = field(default_factory=list)
     moves: list[Move] = field(default_factory=list)
     ended: bool = False
+    returned: Span | None = None
 
     def fail(self, id: str, span: Span, message: str, hint: str = "", **more: Any) -> NoReturn:
         raise BlockError(diagnostic(id, span, message, hint, **more))

@@ -220,6 +220,8 @@ def _content(cursor: Cursor, draft: _Draft, declarations: bool) -> None:
             _block_number(cursor, draft)
         case "%":
             raise cursor.mistake("20193", "A program header must begin its line.")
+        case "[" if cursor.match(_LABEL):
+            raise cursor.mistake("21187", "A label must stand first in its block.")
         case _ if declarations:
             draft.declarations.append(declaration(cursor))
             cursor.take(",")

@@ -1,0 +1,348 @@
+"""Where a program goes on: control statements, jumps, calls and returns.
+
+Enters the layouts of sources and the state behind a block. Leaves the next block, the state and
+diagnostics. The words of a block are executed elsewhere, before its jump.
+Source: reference sections 6 and 7. The two limits of $FOR are evaluated before every pass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from ncscope.channel.draft import BlockError, Draft
+from ncscope.channel.evaluation import evaluate_number, evaluate_value, write_variable
+from ncscope.channel.state import State, Stored
+from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
+from ncscope.language import tree
+from ncscope.language.structure import (
+    LOOPS,
+    Entry,
+    Layout,
+    Level,
+    Statement,
+    jumps,
+    layout,
+    shown,
+)
+from ncscope.machine import Machine
+
+Load = Callable[[str], Source | None]
+MOST_CALLS = 20
+"""Deepest nesting of subprogram calls."""
+EQUAL = 0.001
+"""Values of $SWITCH and $CASE that differ by less are the same."""
+
+
+@dataclass(frozen=True, slots=True)
+class Return:
+    """Where a call came from, with the V.L variables that come back."""
+
+    layout: Layout
+    level: Level
+    at: int
+    locals: dict[str, Stored]
+
+
+class Walker:
+    """The place in the program, from block to block.
+
+    `at` is the index of the next block. `passes` counts the passes of each loop and backward jump,
+    by file and index, for the message about a program that does not end.
+    """
+
+    def __init__(
+        self, machine: Machine, main: Layout, load: Load | None, skip: frozenset[int]
+    ) -> None:
+        self.machine, self.load, self.skip = machine, load, skip
+        self.layout = main
+        self.level: Level = main.main or (0, 0)
+        self.at = self.level[0]
+        self.calls: list[Return] = []
+        self.layouts: dict[str, Layout] = {main.source.name: main}
+        self.passes: dict[tuple[str, int], int] = {}
+
+    @property
+    def entry(self) -> Entry | None:
+        """The next block; None at the end of the program level."""
+        return self.layout.entries[self.at] if self.at < self.level[1] else None
+
+    def open_statements(self) -> tuple[Statement, ...]:
+        """Statements without an end that are open where the program stands."""
+        last = min(self.at, self.level[1] - 1)
+        if last < self.level[0]:
+            return ()
+        own = self.layout.statements.get(last)
+        around = self.layout.around[last] + ((own,) if own is not None else ())
+        return _open(around)
+
+    # --- one step ------------------------------------------------------------------------------
+
+    def step(self, state: State) -> tuple[State, tuple[Diagnostic, ...]]:
+        """The jump of the block whose words have been executed."""
+        entry = self.layout.entries[self.at]
+        draft = Draft(self.machine, state, entry.span.place if entry.keyword else "")
+        try:
+            if entry.call is not None:
+                self._call(draft, entry.call)
+            elif entry.keyword:
+                self.at = self._target(draft, entry)
+            else:
+                self.at += 1
+        except BlockError as error:
+            return state, (*draft.diagnostics, error.diagnostic)
+        return draft.state, tuple(draft.diagnostics)
+
+    def _target(self, draft: Draft, entry: Entry) -> int:
+        keyword, at = entry.keyword, self.at
+        if keyword == "GOTO":
+            return self._goto(draft, _control(entry))
+        if keyword == "IF" and jumps(entry.block.control):
+            control = _control(entry)
+            return self._goto(draft, control) if _true(draft, control.values[0]) else at + 1
+        statement = self.layout.statements[at]
+        match keyword:
+            case "IF" | "#IF":
+                return self._if(draft, statement)
+            case "ELSEIF" | "IFELSE" | "ELSE" | "#ELSE":
+                return self._behind(draft, statement, ran=True)
+            case "SWITCH":
+                return self._switch(draft, statement)
+            case "BREAK":
+                return self._behind(draft, statement, ran=True)
+            case "CONTINUE":
+                return (
+                    self._behind(draft, statement, True) - 1
+                    if statement.end is None
+                    else (statement.end)
+                )
+            case "FOR" | "WHILE" | "DO" | "REPEAT":
+                return self._begin(draft, statement)
+            case "ENDFOR" | "ENDWHILE" | "ENDDO" | "UNTIL":
+                return self._again(draft, statement)
+        return at + 1
+
+    def _behind(self, draft: Draft, statement: Statement, ran: bool) -> int:
+        """Behind the end of a statement; without an end, the end of the program level."""
+        if statement.end is not None:
+            return statement.end + 1
+        if ran:
+            return self.level[1]
+        span = self.layout.entries[statement.first].span
+        name = shown(statement.keyword)
+        id = "21502" if statement.keyword in LOOPS else "21500"
+        id = "21501" if statement.keyword == "SWITCH" else id
+        draft.fail(id, span, f"{name} was skipped and has no end")
+
+    # --- $IF and $SWITCH -----------------------------------------------------------------------
+
+    def _if(self, draft: Draft, statement: Statement) -> int:
+        for at in (statement.first, *statement.branches):
+            condition = _condition(self.layout.entries[at])
+            if condition is None or _true(draft, condition):
+                return at + 1
+        return self._behind(draft, statement, ran=False)
+
+    def _switch(self, draft: Draft, statement: Statement) -> int:
+        entries, default = self.layout.entries, None
+        value = evaluate_number(draft, _control(entries[statement.first]).values[0])
+        for at in statement.branches:
+            case = _condition(entries[at])
+            if case is None:
+                default = at + 1
+            elif abs(evaluate_number(draft, case) - value) < EQUAL:
+                return at + 1
+        return default or self._behind(draft, statement, ran=False)
+
+    # --- loops ---------------------------------------------------------------------------------
+
+    def _begin(self, draft: Draft, statement: Statement) -> int:
+        self.passes[self.layout.source.name, statement.first] = 0
+        control = _control(self.layout.entries[statement.first])
+        if statement.keyword == "FOR":
+            write_variable(draft, _assignment(control, "=", control.values[0]))
+            if evaluate_number(draft, control.values[2]) == 0:
+                draft.warn("20852", control.values[2].span, "the step is 0: the loop has no end")
+        return self._pass(draft, statement, control)
+
+    def _pass(self, draft: Draft, statement: Statement, control: tree.Control) -> int:
+        """The first block of the body, or behind the loop when its test at the top fails."""
+        key = self.layout.source.name, statement.first
+        self.passes[key] = self.passes.get(key, 0) + 1
+        if statement.keyword == "FOR" and not _counts(draft, control):
+            return self._behind(draft, statement, ran=self.passes[key] > 1)
+        if statement.keyword == "WHILE" and not _true(draft, control.values[0]):
+            return self._behind(draft, statement, ran=self.passes[key] > 1)
+        return statement.first + 1
+
+    def _again(self, draft: Draft, statement: Statement) -> int:
+        entries = self.layout.entries
+        control = _control(entries[statement.first])
+        if statement.keyword == "FOR":
+            write_variable(draft, _assignment(control, "+=", control.values[2]))
+        if statement.keyword in ("DO", "REPEAT"):
+            ending = _control(entries[self.at])
+            if _true(draft, ending.values[0]) != (statement.keyword == "DO"):
+                return self.at + 1
+        return self._pass(draft, statement, control)
+
+    def blamed(self) -> Span | None:
+        """The loop that most likely has no end: of those around, the one with most passes."""
+        at = min(self.at, self.level[1] - 1)
+        name = self.layout.source.name
+        around = [s.first for s in self.layout.around[at] if s.keyword in LOOPS]
+        own = self.layout.statements.get(at)
+        if own is not None and own.keyword in LOOPS:
+            around.append(own.first)
+        counts = {i: self.passes.get((name, i), 0) for i in around}
+        if not counts:  # a loop of jumps
+            counts = {i: n for (file, i), n in self.passes.items() if file == name}
+        if not counts:
+            return None
+        return self.layout.entries[max(counts, key=lambda i: counts[i])].span
+
+    # --- jumps ---------------------------------------------------------------------------------
+
+    def _goto(self, draft: Draft, control: tree.Control) -> int:
+        label = _label(draft, control)
+        target = self.layout.labels.get((self.level[0], label))
+        if target is None:
+            hint = "a label is written N20: or [NAME], first in a block of the same program level"
+            draft.fail("20840", control.span, f"the label {label} is not found", hint)
+        here = self.layout.around[self.at]
+        for statement in self.layout.around[target]:
+            if statement.keyword in LOOPS and not any(s is statement for s in here):
+                note = ("the loop", self.layout.entries[statement.first].span)
+                message = f"the jump to {label} leads into a loop"
+                draft.fail("21480", control.span, message, notes=(note,))
+        if target <= self.at:
+            key = self.layout.source.name, self.at
+            self.passes[key] = self.passes.get(key, 0) + 1
+        return target
+
+    # --- calls ---------------------------------------------------------------------------------
+
+    def _call(self, draft: Draft, call: tree.Call) -> None:
+        name = _called(draft, call)
+        if len(self.calls) >= MOST_CALLS:
+            message = f"subprogram calls are nested more than {MOST_CALLS} deep"
+            draft.fail("20371", call.span, message)
+        found = (
+            self._local(draft, call, name)
+            if call.kind == "LL"
+            else (self._global(draft, call, name))
+        )
+        state = draft.state
+        kept = {k: v for k, v in state.variables.items() if k.startswith("V.L.")}
+        self.calls.append(Return(self.layout, self.level, self.at + 1, kept))
+        draft.state = _without_locals(state)
+        self.layout, self.level = found
+        self.at = self.level[0]
+
+    def _local(self, draft: Draft, call: tree.Call, name: str) -> tuple[Layout, Level]:
+        level = self.layout.subprograms.get(name)
+        if level is None:
+            has = ", ".join(sorted(self.layout.subprograms)) or "none"
+            message = f"the local subprogram {name} is not found; the file has: {has}"
+            draft.fail("20373", call.span, message, f"write %L {name} before its blocks")
+        return self.layout, level
+
+    def _global(self, draft: Draft, call: tree.Call, name: str) -> tuple[Layout, Level]:
+        found = self.layouts.get(name)
+        if found is None:
+            source = self.load(name) if self.load is not None else None
+            if source is None:
+                hint = "it must lie in the folder of the program"
+                draft.fail("20369", call.span, f"the subprogram file {name} is not found", hint)
+            found = self.layouts[name] = layout(source, self.skip)
+        if found.diagnostics:
+            raise BlockError(found.diagnostics[0])
+        if found.main is None:
+            draft.fail("20369", call.span, f"the file {name} has no blocks outside of %L")
+        return found, found.main
+
+    def leave(self, state: State) -> State:
+        """Back to the line behind the call."""
+        back = self.calls.pop()
+        self.layout, self.level, self.at = back.layout, back.level, back.at
+        variables = {**_without_locals(state).variables, **back.locals}
+        return replace(state, variables=variables)
+
+
+def _open(around: tuple[Statement, ...]) -> tuple[Statement, ...]:
+    """Those without an end; #IF is no statement of the control."""
+    result: list[Statement] = []
+    for statement in around:
+        if statement.end is None and not any(s is statement for s in result):
+            result.append(statement)
+    return tuple(result)
+
+
+def open_warnings(walker: Walker) -> tuple[Diagnostic, ...]:
+    """20375 for each statement that has no end and is open where the program ended."""
+    return tuple(
+        diagnostic(
+            "20375",
+            walker.layout.entries[s.first].span,
+            f"{shown(s.keyword)} is still open at the end of the program",
+        )
+        for s in walker.open_statements()
+    )
+
+
+def _condition(entry: Entry) -> tree.Expression | None:
+    """What $IF, $ELSEIF, $CASE or #IF evaluates; None for $ELSE and $DEFAULT."""
+    if entry.block.control is not None:
+        return entry.block.control.values[0] if entry.block.control.values else None
+    return entry.block.commands[0].value
+
+
+def _control(entry: Entry) -> tree.Control:
+    assert entry.block.control is not None
+    return entry.block.control
+
+
+def _true(draft: Draft, expression: tree.Expression) -> bool:
+    return abs(evaluate_number(draft, expression)) >= 0.5
+
+
+def _counts(draft: Draft, control: tree.Control) -> bool:
+    """Whether the counter of $FOR has not passed its last value."""
+    step = evaluate_number(draft, control.values[2])
+    if step == 0:
+        return True
+    assert control.target is not None
+    at, last = evaluate_number(draft, control.target), evaluate_number(draft, control.values[1])
+    return at <= last if step > 0 else at >= last
+
+
+def _assignment(control: tree.Control, operator: str, value: tree.Expression) -> tree.Assignment:
+    assert isinstance(control.target, (tree.Variable, tree.Parameter))
+    return tree.Assignment(control.target, operator, value, control.span)
+
+
+def _label(draft: Draft, control: tree.Control) -> str:
+    if isinstance(control.target, tree.Name):
+        return control.target.text
+    if isinstance(control.target, tree.Number):
+        return f"N{round(control.target.value)}"
+    return f"N{round(evaluate_number(draft, control.values[-1]))}"
+
+
+def _called(draft: Draft, call: tree.Call) -> str:
+    """The name of a subprogram: written, of a macro, or in a string variable."""
+    match call.target:
+        case tree.Name(text=text):
+            return text
+        case tree.Macro(name=name):
+            return draft.state.macros.get(name, name)
+        case tree.Variable():
+            value = evaluate_value(draft, call.target)
+            if isinstance(value, str):
+                return value
+    draft.fail("20369", call.span, "the name of the subprogram is not a text")
+
+
+def _without_locals(state: State) -> State:
+    kept = {k: v for k, v in state.variables.items() if not k.startswith("V.L.")}
+    return state if len(kept) == len(state.variables) else replace(state, variables=kept)

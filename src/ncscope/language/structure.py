@@ -1,0 +1,272 @@
+"""Which control statements of a program belong together: a table, computed once per source.
+
+Enters the blocks of a source. Leaves a frozen `Layout`: program levels, labels, and for every
+control block the statement it is part of. Nothing is evaluated here.
+Source: reference sections 6 and 7.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
+from ncscope.language.parser import iterate_blocks
+from ncscope.language.tree import Block, Call, Control
+
+Diagnostics = tuple[Diagnostic, ...]
+Level = tuple[int, int]
+"""First index of a program level, and the index behind its last block."""
+
+LOOPS = {"FOR": "ENDFOR", "WHILE": "ENDWHILE", "DO": "ENDDO", "REPEAT": "UNTIL"}
+OPENINGS = {**LOOPS, "IF": "ENDIF", "SWITCH": "ENDSWITCH", "#IF": "#ENDIF"}
+BRANCHES = {
+    "ELSEIF": "IF",
+    "IFELSE": "IF",
+    "ELSE": "IF",
+    "#ELSE": "#IF",
+    "CASE": "SWITCH",
+    "DEFAULT": "SWITCH",
+}
+ENDINGS = {end: opening for opening, end in OPENINGS.items()}
+MOST_NESTED = 100
+_IF_COMMAND = re.compile(r"#[ \t\0\r]*(?:IF|ELSE|ENDIF)(?![A-Za-z])", re.IGNORECASE)
+_SUBPROGRAM = re.compile(r"%[ \t\0\r]*L[ \t\0\r]", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One block as it is executed: without the words behind a call, and what is jump apart.
+
+    keyword: the control statement without `$` (`#IF` with its `#`), "" for none.
+    """
+
+    block: Block
+    found: Diagnostics
+    keyword: str = ""
+    call: Call | None = None
+
+    @property
+    def span(self) -> Span:
+        return self.block.span if self.block.control is None else self.block.control.span
+
+
+@dataclass
+class Statement:
+    """A structured statement: indices of its first block, its branches and its end (or None)."""
+
+    keyword: str
+    first: int
+    branches: tuple[int, ...] = ()
+    end: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """A source as entries with its jump table.
+
+    statements: by the index of any of their own blocks; $BREAK and $CONTINUE map to the statement
+    that they leave or go on with. around: the statements around a block, outermost first.
+    """
+
+    source: Source
+    entries: tuple[Entry, ...]
+    main: Level | None
+    subprograms: Mapping[str, Level]
+    statements: Mapping[int, Statement]
+    around: tuple[tuple[Statement, ...], ...]
+    labels: Mapping[tuple[int, str], int]
+    diagnostics: Diagnostics
+
+
+def needs_layout(source: Source) -> bool:
+    """Whether the text may hold control flow or calls; quick, and never wrong with False."""
+    text = source.text
+    if "$" in text or ("#" in text and _IF_COMMAND.search(text)):
+        return True
+    return _has_call(source) or ("%" in text and _SUBPROGRAM.search(text) is not None)
+
+
+def _has_call(source: Source) -> bool:
+    """An L that begins a word, or follows a number, with a blank or a quote behind it."""
+    data = source.data
+    at = np.flatnonzero((data | 32) == ord("l"))
+    following = np.append(data, 10)[at + 1]
+    at = at[np.isin(following, np.frombuffer(b' \t\0\r\n"', dtype=np.uint8))]
+    text = source.text
+    for i in at.tolist():
+        start = i - 1 if i and text[i - 1] in "lL" else i
+        if start == 0 or not (text[start - 1].isalpha() or text[start - 1] in "_."):
+            return True
+    return False
+
+
+def layout(source: Source, skip: frozenset[int] = frozenset()) -> Layout:
+    """The table of a source; blocks of the skip levels that are on are left out."""
+    entries = tuple(
+        _entry(block, found)
+        for block, found in iterate_blocks(source)
+        if block.skip is None or block.skip not in skip
+    )
+    main, subprograms = _levels(entries)
+    builder = _Builder(entries)
+    for level in [*([main] if main else []), *subprograms.values()]:
+        builder.level(level)
+    return Layout(
+        source, entries, main, subprograms, builder.statements, tuple(builder.around),
+        builder.labels, tuple(builder.found),
+    )  # fmt: skip
+
+
+def _entry(block: Block, found: Diagnostics) -> Entry:
+    if block.control is not None:
+        return Entry(block, found, block.control.keyword)
+    name = block.commands[0].name if block.commands else ""
+    if name in ("IF", "ELSE", "ENDIF"):
+        return Entry(block, found, f"#{name}")
+    calls = [i for i, w in enumerate(block.words) if isinstance(w, Call) and w.kind in ("L", "LL")]
+    if not calls:
+        return Entry(block, found)
+    call, rest = block.words[calls[0]], block.words[calls[0] + 1 :]
+    assert isinstance(call, Call)
+    if rest:
+        found = (*found, _behind_call(call, rest[0].span))
+    return Entry(replace(block, words=block.words[: calls[0]]), found, "", call)
+
+
+def _behind_call(call: Call, span: Span) -> Diagnostic:
+    message = f"What follows the call {call.kind} in its line is not executed."
+    hint = "put it on a line of its own"
+    return diagnostic("20209", span, message, hint, severity=Severity.WARNING)
+
+
+def _levels(entries: tuple[Entry, ...]) -> tuple[Level | None, dict[str, Level]]:
+    """The main program and the subprograms; of two with one name the first counts."""
+    heads = [i for i, e in enumerate(entries) if e.block.header is not None]
+    first = heads[0] if heads else len(entries)
+    main: Level | None = (0, first) if first else None
+    subprograms: dict[str, Level] = {}
+    for at, stop in zip(heads, [*heads[1:], len(entries)], strict=False):
+        header = entries[at].block.header or ""
+        if header.startswith("L "):
+            subprograms.setdefault(header[2:].strip(), (at + 1, stop))
+        elif main is None:
+            main = (at, stop)
+    return main, subprograms
+
+
+@dataclass
+class _Builder:
+    """The table while it grows."""
+
+    entries: tuple[Entry, ...]
+    statements: dict[int, Statement] = field(default_factory=dict)
+    labels: dict[tuple[int, str], int] = field(default_factory=dict)
+    found: list[Diagnostic] = field(default_factory=list)
+    around: list[tuple[Statement, ...]] = field(default_factory=list)
+    open: tuple[Statement, ...] = ()
+
+    def __post_init__(self) -> None:
+        self.around = [()] * len(self.entries)
+
+    def level(self, level: Level) -> None:
+        self.open = ()
+        for at in range(*level):
+            entry = self.entries[at]
+            self._label(level, at, entry)
+            self.around[at] = self.open
+            if entry.keyword:
+                self._statement(at, entry)
+            elif not entry.block.ok and entry.block.span.text.lstrip("/N0123456789 ")[:1] == "$":
+                self.found.extend(entry.found)
+
+    def _label(self, level: Level, at: int, entry: Entry) -> None:
+        label = entry.block.label
+        if label is None:
+            return
+        first = self.labels.setdefault((level[0], label), at)
+        if first != at:
+            notes = (("the first one", self.entries[first].block.span),)
+            message = f"The label {label} is defined twice."
+            self.found.append(diagnostic("20836", entry.block.span, message, notes=notes))
+
+    def _statement(self, at: int, entry: Entry) -> None:
+        keyword = entry.keyword
+        if keyword.startswith("#") and entry.block.number is not None:
+            message = f"{keyword} must stand first in its line, without a block number."
+            self.found.append(diagnostic("20593", entry.block.span, message))
+        if keyword == "IF" and jumps(entry.block.control):
+            return
+        if keyword in OPENINGS:
+            self._begin(at, keyword)
+        elif keyword in BRANCHES:
+            self._branch(at, keyword)
+        elif keyword in ENDINGS:
+            self._end(at, keyword)
+        elif keyword in ("BREAK", "CONTINUE"):
+            self._leave(at, keyword)
+
+    def _begin(self, at: int, keyword: str) -> None:
+        if len(self.open) == MOST_NESTED:
+            message = f"Control statements are nested more than {MOST_NESTED} deep."
+            self.found.append(diagnostic("20211", self.entries[at].span, message))
+        statement = Statement(keyword, at)
+        self.statements[at] = statement
+        self.open = (*self.open, statement)
+
+    def _branch(self, at: int, keyword: str) -> None:
+        top = self._expected(at, keyword, BRANCHES[keyword])
+        if top is None:
+            return
+        if top.branches and keyword != "CASE" and BRANCHES[keyword] != "SWITCH":
+            last = self.entries[top.branches[-1]]
+            if last.keyword.endswith("ELSE") and last.keyword != "IFELSE":
+                message = f"{shown(keyword)} stands behind {shown(last.keyword)}."
+                self.found.append(diagnostic("N1007", self.entries[at].span, message))
+        top.branches = (*top.branches, at)
+        self.statements[at] = top
+        self.around[at] = self.open
+
+    def _end(self, at: int, keyword: str) -> None:
+        top = self._expected(at, keyword, ENDINGS[keyword])
+        if top is None:
+            return
+        top.end = at
+        self.statements[at] = top
+        self.open = self.open[:-1]
+
+    def _leave(self, at: int, keyword: str) -> None:
+        wanted = LOOPS if keyword == "CONTINUE" else {*LOOPS, "SWITCH"}
+        inner = next((s for s in reversed(self.open) if s.keyword in wanted), None)
+        if inner is None:
+            place = "a loop" if keyword == "CONTINUE" else "a loop or $SWITCH"
+            id = "20245" if keyword == "CONTINUE" else "20242"
+            message = f"${keyword} stands outside of {place}."
+            self.found.append(diagnostic(id, self.entries[at].span, message))
+            return
+        self.statements[at] = inner
+
+    def _expected(self, at: int, keyword: str, opening: str) -> Statement | None:
+        if self.open and self.open[-1].keyword == opening:
+            return self.open[-1]
+        notes: tuple[tuple[str, Span], ...] = ()
+        message = f"{shown(keyword)} has no {shown(opening)} before it."
+        if self.open:
+            top = self.open[-1]
+            message = f"{shown(keyword)} does not belong to {shown(top.keyword)}, which is open."
+            notes = ((f"{shown(top.keyword)} begins here", self.entries[top.first].span),)
+        self.found.append(diagnostic("N1007", self.entries[at].span, message, notes=notes))
+        return None
+
+
+def shown(keyword: str) -> str:
+    """A keyword as it is written."""
+    return keyword if keyword.startswith("#") else f"${keyword}"
+
+
+def jumps(control: Control | None) -> bool:
+    """Whether `$IF` is the one-line form with $GOTO."""
+    return control is not None and (control.target is not None or len(control.values) > 1)

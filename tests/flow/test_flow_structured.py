@@ -1,0 +1,165 @@
+"""Control statements and loops (nc_language sheet, section 6): X positions worked out by hand."""
+
+from __future__ import annotations
+
+import pytest
+
+import ncscope
+from ncscope.execution import Options
+from ncscope.machine import Machine
+
+
+def go(text: str, **options) -> ncscope.Trajectory:
+    return ncscope.run(Machine(), text, Options(**options))
+
+
+def xs(text: str, **options) -> list[float]:
+    return go(text, **options).acs[:, 0].tolist()
+
+
+def ids(result: ncscope.Trajectory) -> list[tuple[str, int | None]]:
+    return [(d.id, d.line) for d in result.diagnostics if d.severity != "note"]
+
+
+IF = "P1={}\n$IF P1 == 1\nX1\n$ELSEIF P1 == 2\nX2\n$ELSE\nX3\n$ENDIF\nX9\nM30\n"
+
+
+@pytest.mark.parametrize(("value", "x"), [(1, 1), (2, 2), (7, 3)])
+def test_if_takes_one_branch(value, x):
+    assert xs(IF.format(value)) == [x, 9]
+
+
+@pytest.mark.parametrize(("value", "taken"), [("0.5", 1), ("-0.5", 1), ("0.49", 0), ("-1", 1)])
+def test_truth_begins_at_one_half(value, taken):
+    assert xs(f"$IF {value}\nX1\n$ENDIF\nM30\n") == [1] * taken
+
+
+def test_if_inside_a_skipped_branch_is_skipped():
+    text = "$IF 0\n$IF 1\nX1\n$ELSE\nX2\n$ENDIF\n$ELSE\nX3\n$ENDIF\nM30\n"
+    assert xs(text) == [3]
+
+
+@pytest.mark.parametrize(
+    ("value", "x"), [("1", [1]), ("2", [2, 3]), ("3", [3]), ("4", [4]), ("1.0009", [1])]
+)
+def test_switch(value, x):
+    text = (
+        f"$SWITCH {value}\n$CASE 1\nX1\n$BREAK\n$CASE 2\nX2\n$CASE 3\nX3\n$BREAK\n"
+        "$DEFAULT\nX4\n$ENDSWITCH\nM30\n"
+    )
+    assert xs(text) == x
+
+
+def test_switch_with_an_assignment():
+    assert xs("$SWITCH P1=1+1\n$CASE 2\nXP1\n$ENDSWITCH\nM30\n") == [2]
+
+
+def test_for_counts_up_and_leaves_the_first_value_beyond():
+    assert xs("$FOR P1 = 1, 3, 1\nXP1\n$ENDFOR\nX[P1*10]\nM30\n") == [1, 2, 3, 40]
+
+
+def test_for_counts_down():
+    assert xs("$FOR V.P.I = 4, 1, -2\nX[V.P.I]\n$ENDFOR\nM30\n") == [4, 2]
+
+
+def test_for_that_never_begins():
+    assert xs("$FOR P1 = 2, 1, 1\nXP1\n$ENDFOR\nX9\nM30\n") == [9]
+
+
+def test_while_tests_first():
+    assert xs("P1=0\n$WHILE P1 < 2\nP1+=1\nXP1\n$ENDWHILE\n$WHILE 0\nX9\n$ENDWHILE\nM30\n") == [
+        1,
+        2,
+    ]
+
+
+def test_do_and_repeat_test_last():
+    assert xs("P1=5\n$DO\nP1+=1\nXP1\n$ENDDO P1 < 7\nM30\n") == [6, 7]
+    assert xs("P1=5\n$REPEAT\nP1+=1\nXP1\n$UNTIL P1 >= 7\nM30\n") == [6, 7]
+    assert xs("$DO\nX1\n$ENDDO 0\n$REPEAT\nX2\n$UNTIL 1\nM30\n") == [1, 2]
+
+
+def test_break_and_continue():
+    text = (
+        "$FOR P1 = 1, 9, 1\n$IF P1 == 2\n$CONTINUE\n$ENDIF\n$IF P1 == 4\n$BREAK\n$ENDIF\n"
+        "XP1\n$ENDFOR\nX[P1*10]\nM30\n"
+    )
+    assert xs(text) == [1, 3, 40]
+
+
+@pytest.mark.parametrize(
+    "loop",
+    ["$WHILE P1 < 3\n{}$ENDWHILE\n", "$DO\n{}$ENDDO P1 < 3\n", "$REPEAT\n{}$UNTIL P1 >= 3\n"],
+)
+def test_continue_goes_to_the_test(loop):
+    assert xs("P1=0\n" + loop.format("P1+=1\nXP1\n$CONTINUE\nX99\n") + "M30\n") == [1, 2, 3]
+
+
+def test_break_in_a_switch_stays_in_the_loop():
+    text = "$FOR P1 = 1, 2, 1\n$SWITCH P1\n$CASE 1\n$BREAK\n$ENDSWITCH\nXP1\n$ENDFOR\nM30\n"
+    assert xs(text) == [1, 2]
+
+
+def test_nested_loops():
+    text = "$FOR P1=1,2,1\n$FOR P2=1,2,1\nX[10*P1+P2]\n$ENDFOR\n$ENDFOR\nM30\n"
+    assert xs(text) == [11, 12, 21, 22]
+
+
+def test_skipped_blocks_are_no_part_of_the_structure():
+    text = "/1 $IF 0\nX1\n/1 $ENDIF\nM30\n"
+    assert xs(text) == [] and xs(text, skip=frozenset([1])) == [1]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("X1\n$ENDIF\nM30\n", ("N1007", 2)),
+        ("X1\n$ELSE\nM30\n", ("N1007", 2)),
+        ("X1\n$FOR P1=1,2,1\n$ENDWHILE\nM30\n", ("N1007", 3)),
+        ("$IF 1\n$ELSE\n$ELSE\n$ENDIF\nM30\n", ("N1007", 3)),
+        ("X1\n$BREAK\nM30\n", ("20242", 2)),
+        ("X1\n$SWITCH 1\n$CONTINUE\n$ENDSWITCH\nM30\n", ("20245", 3)),
+        ("X1\n$IF 1 X2\n$ENDIF\nM30\n", ("20206", 2)),
+    ],
+)
+def test_structure_errors_come_before_any_motion(text, expected):
+    result = go(text)
+    assert ids(result)[:1] == [expected] and not result.ok
+    assert len(result) == 0 or expected[0] == "20206"
+
+
+def test_open_block_that_ran_is_a_warning():
+    result = go("$IF 1\nX1\nM30\n")
+    assert ids(result) == [("20375", 1)] and result.ok and len(result) == 1
+    assert ids(go("X1\n$WHILE 1\nX2\nM30\n")) == [("20375", 2)]
+
+
+@pytest.mark.parametrize(
+    ("opening", "id"), [("$IF 0", "21500"), ("$SWITCH 1\n$CASE 2", "21501"), ("$WHILE 0", "21502")]
+)
+def test_open_block_that_was_skipped_is_an_error(opening, id):
+    result = go(f"X1\n{opening}\nX2\nM30\n")
+    assert ids(result) == [(id, 2)] and not result.ok and len(result) == 1
+
+
+def test_endless_for_warns_and_ends_at_the_limit():
+    result = go("X1\n$FOR P1=1,2,0\nX2\n$ENDFOR\nM30\n", max_blocks=50)
+    assert [i for i, _ in ids(result)] == ["20852", "N4001"]
+    assert "line 2" in result.diagnostics[-1].message
+
+
+def test_endless_loop_is_named_not_the_finite_one_inside():
+    text = "$WHILE 1\n$FOR P1=1,3,1\nXP1\n$ENDFOR\n$ENDWHILE\nM30\n"
+    result = go(text, max_blocks=500)
+    assert result.diagnostics[-1].id == "N4001" and "line 1 " in result.diagnostics[-1].message
+
+
+def test_program_with_loops_has_a_limit_of_its_own(monkeypatch):
+    monkeypatch.setattr("ncscope.execution.MOST_BLOCKS", 100)
+    result = go("$DO\n$ENDDO 1\nM30\n")
+    assert ids(result)[0][0] == "N4001" and "line 1 " in result.diagnostics[-1].message
+
+
+def test_condition_that_fails_is_marked():
+    (error,) = go("$IF 1/0\nX1\n$ENDIF\nM30\n").diagnostics
+    assert (error.id, error.line) == ("20396", 1)
