@@ -14,7 +14,7 @@ from ncscope.contour import Contour, Turn
 from ncscope.diagnostics import Span
 
 if TYPE_CHECKING:
-    from ncscope.channel.block import Words
+    from ncscope.channel.words import Words
 
 
 def set_contour(draft: Draft, contour: Contour) -> None:

@@ -11,7 +11,7 @@ from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
 
 if TYPE_CHECKING:
-    from ncscope.channel.block import Words
+    from ncscope.channel.words import Words
 
 
 def jog(draft: Draft, words: Words) -> None:

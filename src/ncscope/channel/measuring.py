@@ -16,7 +16,7 @@ from ncscope.coordinates import Offset
 from ncscope.diagnostics import Span
 
 if TYPE_CHECKING:
-    from ncscope.channel.block import Words
+    from ncscope.channel.words import Words
 
 
 def record(draft: Draft, axes: Iterable[int], span: Span) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass, field
 
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number
@@ -10,6 +11,18 @@ from ncscope.diagnostics import Span
 from ncscope.language import tree
 
 PRESET_NAMES = ("PSET", "PRESET")
+
+
+@dataclass
+class Words:
+    """The words of one block, each evaluated, waiting for the rule that takes it."""
+
+    gfunctions: dict[int, tree.GWord] = field(default_factory=dict)
+    values: dict[int, float] = field(default_factory=dict)
+    axes: dict[int, tuple[float, Span]] = field(default_factory=dict)
+    signed: set[int] = field(default_factory=set)
+    addresses: dict[str, tuple[float, Span]] = field(default_factory=dict)
+    mfunctions: dict[int, Span] = field(default_factory=dict)
 
 
 def collect_axes(draft: Draft, axes: dict[int, tuple[float, Span]], word: tree.AxisWord) -> int:

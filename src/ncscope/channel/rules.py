@@ -1,0 +1,242 @@
+"""The rules of a block: each takes the words it owns and leaves the rest, in one fixed order.
+
+Enters: a draft and the evaluated words of the block. Leaves: the changed draft.
+Source: nc_language sheet, section 6 (order of effects) and 8 (G functions).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ncscope.channel import contour, manual, measuring, offsets, tools
+from ncscope.channel.draft import Draft
+from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
+from ncscope.channel.words import Words
+from ncscope.diagnostics import Span
+from ncscope.language import tree
+from ncscope.machine import ZERO_GROUPS
+
+KNOWN_M = frozenset((0, 1, 2, 3, 4, 5, 19, 30))
+"""Stops, program end and spindle: without effect on positions beyond any doubt."""
+
+
+def later(draft: Draft, span: Span, what: str) -> None:
+    """The refusal by name of what moves positions and is not modelled."""
+    draft.fail(
+        "N2001",
+        span,
+        f"{what} is not supported yet",
+        "the run stops here, because positions after it would not be right",
+    )
+
+
+def _refuse_g(draft: Draft, words: Words) -> None:
+    for number, word in words.gfunctions.items():
+        row: GFunction = GFUNCTIONS[number]
+        if row.effect == "later":
+            later(draft, word.span, f"G{number:02d} ({row.purpose})")
+        if row.effect == "quiet":
+            draft.warn("N2002", word.span, f"G{number:02d} has no effect on positions")
+    weighted = [n for n in words.gfunctions if n in WEIGHTED]
+    if weighted or 4 in words.gfunctions:
+        words.axes.clear()  # weights of G130.. or the time of G04, not positions
+
+
+def _modal(draft: Draft, words: Words) -> None:
+    for number in words.gfunctions:
+        if number in (0, 1):
+            draft.modal(motion=f"G{number:02d}")
+        elif number in (70, 71):
+            draft.modal(inch=number == 70)
+        elif number in (90, 91):
+            draft.modal(absolute=number == 90)
+        elif number in (17, 18, 19):
+            contour.plane(draft, number, words.gfunctions[number].span)
+            draft.state = offsets.with_tool(draft.state, draft.state.tool)
+
+
+def _zero_offset(draft: Draft, words: Words) -> None:
+    for number, word in words.gfunctions.items():
+        if GFUNCTIONS[number].group != "zero":
+            continue
+        index = number - 53
+        if number == 159:
+            index = _group_index(draft, words, word)
+        draft.state = offsets.select_zero(draft.state, index, draft.place)
+
+
+def _group_index(draft: Draft, words: Words, word: tree.GWord) -> int:
+    number = 159 if 159 in words.gfunctions and words.gfunctions[159] is word else 160
+    if number not in words.values:
+        draft.fail(
+            "20147", word.span, f"G{number} needs the index of a group", f"write G{number}=2"
+        )
+    index = round(words.values[number])
+    if not 0 <= index < ZERO_GROUPS:
+        draft.fail(
+            "20149",
+            word.span,
+            f"zero offset group {index} does not exist; indices are 0 to {ZERO_GROUPS - 1}",
+        )
+    return index
+
+
+def _mask_group(draft: Draft, words: Words) -> None:
+    """G160=2 X1 Y0: leave X out of group 2, take Y in; counts at the next selection."""
+    if 160 not in words.gfunctions:
+        return
+    index = _group_index(draft, words, words.gfunctions[160])
+    table = draft.state.zero_offsets
+    record = table.groups.get(index, offsets.OffsetRecord())
+    inactive = set(record.inactive)
+    for axis, (value, _span) in words.axes.items():
+        (inactive.add if abs(value) >= 0.5 else inactive.discard)(axis)
+    groups = {**table.groups, index: replace(record, inactive=frozenset(inactive))}
+    draft.state = replace(draft.state, zero_offsets=replace(table, groups=groups))
+    words.axes.clear()
+
+
+def _reference_point(draft: Draft, words: Words) -> None:
+    """G92: machine = programmed + zero offset + G92; G90 replaces, G91 adds."""
+    if 92 not in words.gfunctions:
+        return
+    if not words.axes:
+        draft.fail(
+            "N2004",
+            words.gfunctions[92].span,
+            "G92 needs at least one axis with its offset",
+            "write for example G92 X10; G92 X0 takes the offset away",
+        )
+    values = {axis: draft.length(axis, value) for axis, (value, _) in words.axes.items()}
+    add = not draft.modes.absolute
+    draft.state = offsets.set_offsets(draft.state, "g92", "G92", values, draft.place, add)
+    words.axes.clear()
+
+
+def _tool(draft: Draft, words: Words) -> None:
+    place = words.addresses.pop("T", None)
+    record = words.addresses.pop("D", None)
+    if place is not None:
+        tool = replace(draft.state.tool, place=round(place[0]))
+        draft.state = replace(draft.state, tool=tool)
+        if draft.machine.settings.tool_with_t and record is None:
+            record = place
+    if record is not None:
+        tools.select(draft, round(record[0]), record[1])
+
+
+def _technology(draft: Draft, words: Words) -> None:
+    feed = words.addresses.pop("F", None)
+    if feed is not None:
+        if feed[0] <= 0:
+            draft.fail("20176", feed[1], "the feed must be greater than 0")
+        draft.modal(feed=feed[0] * draft.modes.length_factor)
+    for letter in ("S", "E", "H"):
+        word = words.addresses.pop(letter, None)
+        if letter == "E" and word is not None:
+            _end_feed(draft, *word)
+    for number, span in words.mfunctions.items():
+        if number in (17, 29):
+            draft.returned = span
+        elif number not in KNOWN_M:
+            draft.warn("N2002", span, f"M{number:02d} is taken as without effect on positions")
+
+
+def _end_feed(draft: Draft, value: float, span: Span) -> None:
+    """E is the feed at the end of the block, never an exponent."""
+    if value <= 0:
+        draft.fail(
+            "20176",
+            span,
+            "the feed at the block end (E) must be greater than 0",
+            "numbers have no exponent here: write 0.001 for 1E-3",
+        )
+    draft.warn("N2002", span, "E (feed at the block end) has no effect on positions")
+
+
+def _centre_words(draft: Draft, words: Words) -> None:
+    for letter in ("I", "J", "K"):
+        word = words.addresses.pop(letter, None)
+        if word is not None:
+            draft.warn("20048", word[1], f"{letter} has no effect in a linear block")
+
+
+def _motion(draft: Draft, words: Words) -> None:
+    if 100 in words.gfunctions:
+        return _measure(draft, words)
+    if not words.axes:
+        return None
+    modes = draft.modes
+    program = np.array(draft.state.position.program)
+    for axis, (value, _span) in words.axes.items():
+        length = draft.length(axis, value)
+        program[axis] = length if modes.absolute else program[axis] + length
+        _check_modulo(draft, axis, words, float(program[axis]))
+    span = next(iter(words.axes.values()))[1]
+    if modes.motion == "G01" and modes.feed is None and not modes.feed_warned:
+        draft.warn("20008", span, "a feed motion is programmed without a feed (F)")
+        draft.modal(feed_warned=True)
+    draft.move_to(program, span)
+    words.axes.clear()
+    return None
+
+
+def _measure(draft: Draft, words: Words) -> None:
+    """G100 X100: a feed motion to the target, where the probe triggers."""
+    word = words.gfunctions.pop(100)
+    if not words.axes:
+        draft.fail("N2025", word.span, "G100 needs at least one axis with its target")
+    axes, motion = tuple(words.axes), draft.modes.motion
+    draft.modal(motion="G01")
+    _motion(draft, words)
+    draft.modal(motion=motion)
+    measuring.record(draft, axes, word.span)
+
+
+def _check_modulo(draft: Draft, axis: int, words: Words, value: float) -> None:
+    """On a modulo axis a sign is a turning direction, and values wrap; neither is modelled, so
+    only values for which it makes no difference pass."""
+    limits = draft.state.axes[axis].modulo_range
+    if limits is None:
+        return
+    signed = draft.modes.absolute and axis in words.signed
+    if signed or not limits[0] <= value < limits[1]:
+        name = draft.state.axes[axis].name
+        what = "a sign" if signed else f"a value outside {limits[0]:g} to {limits[1]:g} degrees"
+        later(draft, words.axes[axis][1], f"{what} on the modulo axis {name}")
+
+
+def _end(draft: Draft, words: Words) -> None:
+    for number, span in words.mfunctions.items():
+        if number in (2, 30):
+            draft.ended = True
+            if draft.state.coordinates.kinematics is not None:
+                draft.warn("21247", span, "a transformation is still active at program end")
+
+
+def reject_unused(draft: Draft, words: Words) -> None:
+    for letter, (_value, span) in words.addresses.items():
+        draft.fail("N2003", span, f"word {letter} is not used by any command in this block")
+
+
+RULES: tuple[Callable[[Draft, Words], None], ...] = (
+    _refuse_g,
+    _modal,
+    contour.mirror,
+    contour.rotation,
+    _zero_offset,
+    _mask_group,
+    _reference_point,
+    measuring.offset,
+    _tool,
+    _technology,
+    _centre_words,
+    manual.jog,
+    manual.home,
+    _motion,
+    _end,
+)
+"""The rules in their order of effect; each takes its words and leaves the rest."""
