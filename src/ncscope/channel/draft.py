@@ -6,6 +6,7 @@ was before the block.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
 from typing import Any, NoReturn
 
@@ -67,6 +68,10 @@ class Draft:
             return names.index(name)
         other = [n for n in names if n.lower() == name.lower()]
         hint = f"axis names are case-sensitive: write {other[0]}" if other else ""
+        joined = re.fullmatch(r"([A-Z])([0-9.]+)(\D\w*)", name)
+        if joined and joined[1] in names:
+            word, rest = joined[1] + joined[2], joined[3]
+            hint = f"all before = is one name: write a blank after the value, {word} {rest}=.."
         has = " ".join(names)
         self.fail(id, span, f"axis {name} is not in this channel; it has the axes {has}", hint)
 

@@ -37,7 +37,8 @@ _COMMENT_END = re.compile(
     r"[ \t\0\r]*(?:N[ \t]*[0-9]+)?(?:[ \t\0\r]|\([^()\n]*\))*#[ \t\0\r]*COMMENT[ \t\0\r]+END\b",
     re.IGNORECASE,
 )
-_BYTE_ORDER_MARK = "\ufeff"
+_BYTE_ORDER_MARKS = ("\ufeff", "\xef\xbb\xbf", "\xff\xfe", "\xfe\xff")
+"""As a character, and as UTF-8 and UTF-16 look when they are read as Latin-1."""
 
 
 @dataclass(frozen=True)
@@ -101,8 +102,9 @@ class BlockReader:
     def __iter__(self) -> Iterator[tuple[Block, Diagnostics]]:
         source, declaring = self.source, False
         pending: Diagnostics = ()
-        if source.text.startswith(_BYTE_ORDER_MARK):
-            pending, self.at = (_byte_order_mark(source),), 1
+        mark = next((m for m in _BYTE_ORDER_MARKS if source.text.startswith(m)), "")
+        if mark:
+            pending, self.at = (_byte_order_mark(source),), len(mark)
         while self.at < len(source.text):
             block, found, self.at = parse_block(source, self.at, declarations=declaring)
             if block is None:
