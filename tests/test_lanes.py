@@ -86,7 +86,7 @@ def test_a_program_may_be_cut_anywhere(cut):
 def test_plain_blocks_do_take_the_bulk_lane():
     """Without this the tests above would compare the step lane with itself."""
     text = "G1 F100 X0\n" + "".join(f"N{i} X{i}.5 Y-{i}\n" for i in range(200)) + "M30\n"
-    result = ncscope.run(FLAT, text)
+    result = ncscope.run(FLAT, text, Options(bulk=True))
     assert len(result.stretches) == 1
     assert result.pcs[200, :2].tolist() == [199.5, -199.0]
     assert result.line[200] == 201

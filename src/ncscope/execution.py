@@ -8,23 +8,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from ncscope.channel.block import Step, execute
-from ncscope.channel.bulk import advance
 from ncscope.channel.draft import Message
 from ncscope.channel.flow import Load, Walker, open_warnings
 from ncscope.channel.start import start_state
 from ncscope.channel.state import State
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.language import BlockReader, tree
-from ncscope.language.scanner import Scanner
 from ncscope.language.structure import layout, needs_layout
 from ncscope.machine import Machine
 from ncscope.trajectory import Recorder, Trajectory
 
+if TYPE_CHECKING:
+    from ncscope.language.scanner import Scanner
+
 Progress = Callable[[int], None]
 MOST_BLOCKS = 10_000_000
 """Executed blocks after which a program with loops ends, where no limit is given."""
+
+
+BULK_FROM = 20_000
+"""Characters from which the compiled bulk lane is worth the time of its loading."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +39,8 @@ class Options:
 
     clamp: clamp position handed over at program start. skip: skip levels that are switched on.
     max_blocks: blocks after which the run stops, 0 for no limit. strict: a warning stops too.
-    bulk: plain blocks are taken many at a time; the result is the same without.
+    bulk: whether plain blocks are taken many at a time; None leaves it to the length
+    of the program. The result is the same.
     load: the text of a subprogram file that the program calls, None where there is none; without
     it no file is found.
     """
@@ -42,7 +49,7 @@ class Options:
     skip: frozenset[int] = frozenset()
     max_blocks: int = 0
     strict: bool = False
-    bulk: bool = True
+    bulk: bool | None = None
     load: Load | None = None
 
 
@@ -163,6 +170,8 @@ class _Loop:
         self.returned: Span | None = None
         self.blamed: Callable[[], Span | None] | None = None
         self.scanner: Scanner | None = None
+        long = len(source.text) >= BULK_FROM
+        self.bulk = long if options.bulk is None else options.bulk
 
     @property
     def over(self) -> bool:
@@ -195,8 +204,11 @@ class _Loop:
 
     def take_plain(self, reader: BlockReader) -> None:
         """All plain blocks that follow, in the bulk lane."""
-        if not self.options.bulk or reader.in_area:
+        if not self.bulk or reader.in_area:
             return
+        from ncscope.channel.bulk import advance
+        from ncscope.language.scanner import Scanner
+
         if self.scanner is None:
             names = (a.name if a.modulo_range is None else "" for a in self.state.axes)
             self.scanner = Scanner(self.source.data, tuple(names))
