@@ -93,3 +93,9 @@ def test_links_lead_somewhere(path: Path) -> None:
         if not (path.parent / link).exists()
     ]  # fmt: skip
     assert missing == []
+
+
+def test_every_g_function_is_on_the_page() -> None:
+    page = docs.commands_page()
+    missing = [n for n in docs.GFUNCTIONS if f"G{n:02d}" not in page]
+    assert missing == []

@@ -21,6 +21,7 @@ G_EFFECTS = {
     "motion": "Motion",
     "modal": "Modal state",
     "offset": "Offsets",
+    "contour": "Programmed contour: mirror and rotation",
     "quiet": "Noted once, without effect on positions",
     "later": "Refused by name",
 }
