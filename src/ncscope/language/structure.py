@@ -92,6 +92,8 @@ def needs_layout(source: Source) -> bool:
 
 def _has_call(source: Source) -> bool:
     """An L that begins a word, or follows a number, with a blank or a quote behind it."""
+    if "L" not in source.text and "l" not in source.text:
+        return False  # CAM programs: nothing is copied
     data = source.data
     at = np.flatnonzero((data | 32) == ord("l"))
     following = np.append(data, 10)[at + 1]
