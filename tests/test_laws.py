@@ -155,7 +155,7 @@ def test_levels_compose_like_matrices(data: st.DataObject) -> None:
 @quick
 @given(st.tuples(angles, angles, angles))
 def test_rotation_is_z_then_y_then_x(turn: tuple[float, float, float]) -> None:
-    """R = Rz(f3) Ry(f2) Rx(f1), written out here from the sheet."""
+    """R = Rz(f3) Ry(f2) Rx(f1), written out here from the definition of #CS."""
     (a, b, g) = (math.radians(v) for v in turn)
     rx = np.array([[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]])
     ry = np.array([[math.cos(b), 0, math.sin(b)], [0, 1, 0], [-math.sin(b), 0, math.cos(b)]])

@@ -1,6 +1,6 @@
 """What happens to programmed values before any offset: scale, turn in the plane, mirror.
 
-Formula 1.2 of the offsets sheet: x1 = S x, x2 = C + Rot (x1 - C), x3 = M x2. Only `Coordinates`
+The order of composition: x1 = S x, x2 = C + Rot (x1 - C), x3 = M x2. Only `Coordinates`
 applies a contour. Arrays are (..., n) with one column per channel axis; mm and degrees.
 """
 

@@ -107,7 +107,6 @@ class ActiveKinematics:
 
     model: UniversalKinematics
     pose: int | None = None
-    orientation_in_cs: bool = False
     origin: str | None = None
 
 
@@ -125,7 +124,7 @@ class Coordinates:
     """The chain that is valid for one block.
 
     axis_count: columns of every array. levels: from the workpiece level 0 to the innermost one.
-    Source: offsets sheet 1.2; FCT-C2; TF5200 #CS; FCT-C27.
+    Source: TF5200 coordinate systems and offsets; FCT-C2; TF5200 #CS; FCT-C27.
     """
 
     axis_count: int
@@ -193,7 +192,7 @@ class Coordinates:
         if active is None:
             return position
         return active.model.inverse(
-            self._oriented(position), tool_length=self.tool.length, near=near, pose=active.pose
+            position, tool_length=self.tool.length, near=near, pose=active.pose
         )
 
     def mcs_from_axes(self, axes: ArrayLike) -> Array:
@@ -201,9 +200,7 @@ class Coordinates:
         position = np.asarray(axes, dtype=float)
         active = self.kinematics
         if active is not None:
-            position = self._unoriented(
-                active.model.program(position, tool_length=self.tool.length)
-            )
+            position = active.model.program(position, tool_length=self.tool.length)
         return position + self.tool_vector
 
     def direction(self, axes: ArrayLike) -> Array | None:
@@ -306,21 +303,6 @@ class Coordinates:
     def _main(self, frame: Frame) -> tuple[Array, Array]:
         n = min(3, self.axis_count)
         return frame.rotation[:n, :n], frame.shift[:n]
-
-    def _oriented(self, position: Array) -> Array:
-        """A vector orientation turned with the coordinate system where P-CHAN-00247 asks so."""
-        return self._turn_vector(position, self.mcs_frame.rotation)
-
-    def _unoriented(self, position: Array) -> Array:
-        return self._turn_vector(position, self.mcs_frame.rotation.T)
-
-    def _turn_vector(self, position: Array, rotation: Array) -> Array:
-        active = self.kinematics
-        if active is None or not active.orientation_in_cs or active.model.mode != 10:
-            return position
-        turned = np.array(position)
-        turned[..., 3:6] = turned[..., 3:6] @ rotation.T
-        return turned
 
     @property
     def _kinematics_alone(self) -> Coordinates:

@@ -1,4 +1,4 @@
-"""Subprograms: local, global, returns, limits (nc_language sheet, section 7)."""
+"""Subprograms: local, global, returns, limits (TF5200 programming manual)."""
 
 from __future__ import annotations
 

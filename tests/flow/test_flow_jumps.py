@@ -1,4 +1,4 @@
-"""$GOTO with both label kinds, and #IF (nc_language sheet, section 6)."""
+"""$GOTO with both label kinds, and #IF (TF5200 programming manual)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Control statements and loops (nc_language sheet, section 6): X positions worked out by hand."""
+"""Control statements and loops (TF5200 programming manual): X positions worked out by hand."""
 
 from __future__ import annotations
 

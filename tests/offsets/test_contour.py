@@ -1,4 +1,4 @@
-"""Scale, contour rotation, mirror and #SUPPRESS OFFSETS: offsets sheet 1.2, 1.3, 3.14 to 3.17."""
+"""Scale, contour rotation, mirror and #SUPPRESS OFFSETS: TF5200 coordinate systems and offsets"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""G74, G200 to G202 and #TLC: offsets sheet 3.3, 3.6, 3.8."""
+"""G74, G200 to G202 and #TLC: TF5200 coordinate systems and offsets"""
 
 import pytest
 

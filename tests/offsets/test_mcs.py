@@ -1,4 +1,4 @@
-"""#MCS ON [EX TOOL] .. #MCS OFF: offsets sheet 3.13 and 8."""
+"""#MCS ON [EX TOOL] .. #MCS OFF: TF5200 coordinate systems and offsets"""
 
 import pytest
 

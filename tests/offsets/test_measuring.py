@@ -1,4 +1,4 @@
-"""G100, G101, G102: offsets sheet 3.5 and example E19."""
+"""G100, G101, G102: TF5200 coordinate systems and offsets and the worked probe at 98.5."""
 
 from dataclasses import replace
 

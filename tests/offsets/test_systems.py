@@ -1,4 +1,4 @@
-"""#CS, #ACS, #BCS and #CS MODE: offsets sheet 3.9, 3.10 and examples E6 to E8."""
+"""#CS, #ACS, #BCS and #CS MODE against the TF5200 definitions and hand-computed positions."""
 
 import numpy as np
 import pytest

@@ -61,7 +61,7 @@ def execute(machine: Machine, state: State, block: tree.Block) -> Step:
 
 
 def _execute(draft: Draft, block: tree.Block) -> None:
-    """The order of effects inside a block (nc_language sheet, section 6)."""
+    """The order of effects inside a block (TF5200 programming manual)."""
     # 1. Block number; what is not supported yet is refused by name.
     number = None if block.number is None else round(evaluate_number(draft, block.number))
     draft.state = replace(draft.state, block=number)

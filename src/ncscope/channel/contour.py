@@ -1,7 +1,7 @@
 """G68, G69, G20 to G23 and G351, and what a change of plane does to a contour rotation.
 
 A contour function moves nothing: the channel stays and reads another programmed value.
-Source: offsets sheet 3.14, 3.15.
+Source: TF5200 coordinate systems and offsets
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Enters the layouts of sources and the state behind a block. Leaves the next block, the state and
 diagnostics. The words of a block are executed elsewhere, before its jump.
-Source: reference sections 6 and 7. The two limits of $FOR are evaluated before every pass.
+Source: TF5200 programming manual The two limits of $FOR are evaluated before every pass.
 """
 
 from __future__ import annotations

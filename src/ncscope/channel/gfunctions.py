@@ -2,7 +2,7 @@
 
 `effect` is `motion`, `modal`, `contour`, `offset`, `quiet` (no effect on positions, noted
 once) or `later` (moves positions and is refused by name).
-Source: nc_language sheet section 8; P-CHAN-00063 modal groups.
+Source: TF5200 programming manual; P-CHAN-00063 modal groups.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""G74 homing and G200 to G202 manual mode (offsets sheet 3.3, 3.6).
+"""G74 homing and G200 to G202 manual mode (TF5200 coordinate systems and offsets).
 
 Offline nobody jogs: manual mode leaves every axis where it is, and manual offsets are 0.
 """

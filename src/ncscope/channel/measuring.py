@@ -1,7 +1,7 @@
 """G100, G101, G102: measured positions and the offset made of them.
 
 Offline no probe answers: it triggers at the target, so the measured offset is 0 and a note says so.
-Source: offsets sheet 3.5 and 8.
+Source: TF5200 coordinate systems and offsets
 """
 
 from __future__ import annotations

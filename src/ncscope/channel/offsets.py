@@ -1,7 +1,7 @@
 """Offsets and tool data: each function returns the state under other coordinates.
 
 Nothing here moves an axis: a new offset counts from the next absolute word of its axis.
-Source: offsets sheet 2 and 3; P-ZERO-00001..00004; TF5200 G92, #PSET, tool data.
+Source: TF5200 coordinate systems and offsets; P-ZERO-00001..00004; TF5200 G92, #PSET, tool data.
 """
 
 from __future__ import annotations

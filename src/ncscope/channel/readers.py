@@ -1,4 +1,4 @@
-"""What V.G.WZ[j] and the measuring variables read (offsets sheet 3.5, 3.7)."""
+"""What V.G.WZ[j] and the measuring variables read (TF5200 coordinate systems and offsets)."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The rules of a block: each takes the words it owns and leaves the rest, in one fixed order.
 
 Enters: a draft and the evaluated words of the block. Leaves: the changed draft.
-Source: nc_language sheet, section 6 (order of effects) and 8 (G functions).
+Source: TF5200 programming manual, order of effects and G functions.
 """
 
 from __future__ import annotations

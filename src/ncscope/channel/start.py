@@ -1,4 +1,4 @@
-"""The state at program start (offsets sheet, section 4)."""
+"""The state at program start (TF5200 coordinate systems and offsets)."""
 
 from __future__ import annotations
 

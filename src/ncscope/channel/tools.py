@@ -1,4 +1,4 @@
-"""T and D: which tool data record acts (TF5200 tool data; offsets sheet 3.7)."""
+"""T and D: which tool data record acts (TF5200 tool data)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The user's own variables: P parameters, V.P, V.S and V.L, and their declaration.
 
-Source: nc_language sheet 5.1 and 5.2. Array indices count from 0; a P number counts from 1.
+Source: TF5200 programming manual Array indices count from 0; a P number counts from 1.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 A pattern is the variable in capitals with `[]` for each index and `.<axis>` where an axis name
 stands. Lengths are in the programmed unit (mm, or inches under G70), angles in degrees,
 `V.G.KIN` and `KIN_PARAM` in list units (0.1 um).
-Source: offsets sheet 5, nc_language sheet 5, FCT-C27 3.5.
+Source: TF5200 coordinate systems and offsets, TF5200 programming manual, FCT-C27 3.5.
 """
 
 from __future__ import annotations

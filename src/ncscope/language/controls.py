@@ -1,7 +1,7 @@
 """Control statements: `$IF`, `$FOR`, `$GOTO` and their kin.
 
 Enters a cursor at `$`. Leaves a `Control`. Which statements belong together is found at the run.
-Source: reference section 6.
+Source: TF5200 programming manual
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Enters the tree of an expression and an `Environment` that knows the variables. Leaves a number or
 a string. The one exception is `EvaluationError`, which carries a diagnostic.
-Source: reference section 4; the conventions there are marked as ours.
+Source: TF5200 programming manual; the conventions there are marked as ours.
 """
 
 from __future__ import annotations

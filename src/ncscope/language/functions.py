@@ -2,7 +2,7 @@
 
 Enters numbers (angles in degrees) and strings. Leaves a number or a string. A function that has
 no value raises `NoValue` with the id of the diagnostic.
-Source: reference section 4.
+Source: TF5200 programming manual
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Enters the blocks of a source. Leaves a frozen `Layout`: program levels, labels, and for every
 control block the statement it is part of. Nothing is evaluated here.
-Source: reference sections 6 and 7.
+Source: TF5200 programming manual
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Expressions: text to tree.
 
 Enters a cursor before an expression. Leaves the tree of the expression; the cursor stands behind
-it. The expression ends where no operator follows (reference section 4).
+it. The expression ends where no operator follows (TF5200 programming manual).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The words of a block.
 
 Enters a cursor before a word. Leaves the word. Which words make sense together is the channel's.
-Source: reference sections 2 and 3.
+Source: TF5200 programming manual
 """
 
 from __future__ import annotations

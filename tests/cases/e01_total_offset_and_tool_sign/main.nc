@@ -1,4 +1,4 @@
-; offsets sheet E1: tool 1 has an axis offset of 75 mm along X
+; vendor's example: tool 1 has an axis offset of 75 mm along X
 N10 X100
 N20 G92 X11
 N25 #MSG SAVE EXCLUSIVE ["%f", V.A.ACT_POS.X]

@@ -1,4 +1,4 @@
-"""#ROTATION, #SCALE and #SUPPRESS OFFSETS (offsets sheet 3.14, 3.16, 3.17)."""
+"""#ROTATION, #SCALE and #SUPPRESS OFFSETS (TF5200 coordinate systems and offsets)."""
 
 from __future__ import annotations
 

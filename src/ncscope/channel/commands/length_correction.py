@@ -1,4 +1,4 @@
-"""#TLC ON [15], #TLC OFF: the tool is longer than its data say (offsets sheet 3.8).
+"""#TLC ON [15], #TLC OFF: the tool is longer than its data say (TF5200 #TLC).
 
 Counts from the next absolute word. Not together with a transformation.
 """

@@ -1,7 +1,7 @@
 """#MCS ON, #MCS OFF: programmed values are axis positions for a while.
 
 Kinematics, coordinate systems, contour rotation, tool and all offsets wait; scale and mirror stay.
-Source: offsets sheet 3.13 and 8.
+Source: TF5200 coordinate systems and offsets
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 A definition is a shift in the axes of the level below and three angles, f3 about the third axis
 first, then f2, then f1 about the axes already turned. Shift and angles always follow the order of
 the main axes in G17. From bottom to top lie #BCS, #ACS, #CS, whichever was switched on first.
-Source: #CS seed; offsets sheet 1.2, 3.9, 3.10.
+Source: #CS seed; TF5200 coordinate systems and offsets
 """
 
 from __future__ import annotations

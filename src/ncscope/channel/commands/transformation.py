@@ -76,7 +76,6 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
         )
     active = ActiveKinematics(
         model,
-        orientation_in_cs=settings.orientation_in_cs,
         origin=draft.place,
     )
     draft.set_coordinates(replace(draft.state.coordinates, kinematics=active), command.span)
