@@ -234,7 +234,7 @@ class _Loop:
         return True
 
     def result(self) -> Trajectory:
-        if not self.over and self.count:
+        if not self.over:
             self.log.add(_no_end(self.source), self.options.strict)
         self.recorder.close()
         return Trajectory(

@@ -105,7 +105,6 @@ class ChannelSettings:
     rotation_sequence: str = "ZYX"  # P-CHAN-00394
     rotation_fixed: bool = False  # P-CHAN-00393
     offsets_per_level: bool = True  # P-CHAN-00397
-    orientation_in_cs: bool = False  # P-CHAN-00247 ori_wcs
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,7 +30,6 @@ SETTINGS_OF_KEYS = {
     "coordinate_system.rotation_sequence": "rotation_sequence",
     "coordinate_system.rotation_mode_fixed": "rotation_fixed",
     "coordinate_system.axes_offsets_layer_specific": "offsets_per_level",
-    "ori_wcs": "orientation_in_cs",
 }
 """List keys of the channel settings and their names in `ChannelSettings`."""
 
