@@ -217,10 +217,10 @@ def test_entries_without_effect_are_noted_once_per_key(tmp_path):
 
 
 def test_default_lists_come_first(tmp_path):
-    write(tmp_path, default_sda_mds="kinematik_id 9\nori_wcs 1\n", SDA="kinematik_id 91\n")
+    write(tmp_path, default_sda_mds="kinematik_id 9\neinrechnen_mit_t 1\n", SDA="kinematik_id 91\n")
     machine, found = load_machine(tmp_path)
     assert found == ()
-    assert machine.settings.default_kinematic_id == 91 and machine.settings.orientation_in_cs
+    assert machine.settings.default_kinematic_id == 91 and machine.settings.tool_with_t
 
 
 def test_startup_list(tmp_path):
