@@ -1,0 +1,53 @@
+"""The command line: arguments to API to views, nothing else.
+
+One module per command; `screen`, `options` and `inputs` hold what they share.
+Exit codes: 0 the program ran, 1 it ended with an error, 2 the command was used wrongly.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated
+
+import typer
+
+from ncscope import __version__
+from ncscope.cli.check import check_command
+from ncscope.cli.explain import explain_command
+from ncscope.cli.run import run_command
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    help="Where will my machine go, and why? Runs NC programs of the ISG-kernel dialect offline.",
+)
+app.command("run")(run_command)
+app.command("explain")(explain_command)
+app.command("check")(check_command)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"ncscope {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Options of ncscope itself."""
+
+
+def main() -> None:
+    """Entry point; a broken pipe or Ctrl-C ends without a traceback."""
+    try:
+        app()
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except BrokenPipeError:
+        sys.stderr.close()
+        sys.exit(0)

@@ -1,0 +1,5 @@
+"""`python -m ncscope.cli`."""
+
+from ncscope.cli import main
+
+main()

@@ -1,0 +1,40 @@
+"""`ncscope check`: lists and programs, without a look at positions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ncscope.cli.inputs import run_program
+from ncscope.cli.options import MachineOption
+from ncscope.cli.screen import fail, show_diagnostics
+
+if TYPE_CHECKING:
+    from ncscope.diagnostics import Diagnostic
+
+
+def check_command(
+    paths: Annotated[list[Path], typer.Argument(help="Lists, folders of lists, programs.")],
+    machine: MachineOption = None,
+    strict: Annotated[bool, typer.Option("--strict", help="A warning counts as an error.")] = False,
+) -> None:
+    """Check lists and programs; exit code 1 on errors."""
+    from ncscope.lists import check_lists
+
+    found: list[Diagnostic] = []
+    for path in paths:
+        if not path.exists():
+            fail(f"{path} does not exist")
+        if path.is_dir() or path.suffix.lower() == ".lis":
+            found.extend(check_lists(path))
+        else:
+            from ncscope.execution import Options
+
+            result, more, _ = run_program(path, machine, Options(max_blocks=1_000_000))
+            found.extend([*(d for d in more if d.severity != "note"), *result.diagnostics])
+    show_diagnostics(found)
+    counts = {s: sum(d.severity == s for d in found) for s in ("error", "warning", "note")}
+    typer.echo(", ".join(f"{n} {s}{'' if n == 1 else 's'}" for s, n in counts.items()))
+    raise typer.Exit(1 if counts["error"] or (strict and counts["warning"]) else 0)

@@ -1,0 +1,52 @@
+"""Machine and program from the paths of the command line, and the run of both."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ncscope.cli.screen import fail, progress_bar
+
+if TYPE_CHECKING:
+    from ncscope.diagnostics import Diagnostic
+    from ncscope.execution import Options, Program
+    from ncscope.machine import Machine
+    from ncscope.trajectory import Trajectory
+
+
+def run_program(
+    path: Path, machine_path: Path | None, options: Options
+) -> tuple[Trajectory, list[Diagnostic], Program]:
+    from dataclasses import replace
+
+    from ncscope.execution import run
+    from ncscope.loading import load_program, subprogram_loader
+    from ncscope.trajectory import Trajectory
+
+    machine, found = read_machine(machine_path)
+    if options.clamp is not None and options.clamp not in machine.clamp_positions:
+        has = ", ".join(str(i) for i in sorted(machine.clamp_positions)) or "none"
+        fail(f"clamp position {options.clamp} does not exist; the lists have: {has}")
+    try:
+        program = load_program(path)
+    except OSError as error:
+        fail(f"cannot read {path}: {error.strerror}")
+    if any(d.is_error for d in found):  # on the wrong machine every number would be wrong
+        return Trajectory((), machine.axis_names, ok=False), found, program
+    options = replace(options, load=subprogram_loader([path.parent]))
+    with progress_bar(len(program.source.text)) as progress:
+        result = run(machine, program, options, progress)
+    return result, found, program
+
+
+def read_machine(path: Path | None) -> tuple[Machine, list[Diagnostic]]:
+    if path is None:
+        from ncscope.machine import Machine
+
+        return Machine(), []
+    if not path.exists():
+        fail(f"machine {path} does not exist")
+    from ncscope.lists import load_machine
+
+    machine, found = load_machine(path)
+    return machine, list(found)

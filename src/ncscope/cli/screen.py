@@ -1,0 +1,58 @@
+"""What goes to the terminal: colours there, plain text in a pipe, progress, and the last word."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NoReturn
+
+import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from rich.console import Console
+
+    from ncscope.diagnostics import Diagnostic
+
+LONG_PROGRAM = 200_000
+"""Characters from which a run shows its progress."""
+
+
+def show_diagnostics(items: Iterable[Diagnostic]) -> None:
+    from ncscope.diagnostics import render
+
+    colours = {"error": "red", "warning": "yellow", "note": "cyan"}
+    terminal = console(stderr=True)
+    for item in items:
+        terminal.print(
+            render(item), style=colours[str(item.severity)], markup=False, highlight=False,
+            soft_wrap=True,
+        )  # fmt: skip
+
+
+def console(stderr: bool = False) -> Console:
+    """Colours on a terminal; in a pipe plain text of any width."""
+    from rich.console import Console
+
+    stream = sys.stderr if stderr else sys.stdout
+    width = None if stream.isatty() else 200
+    return Console(stderr=stderr, width=width, highlight=False)
+
+
+@contextmanager
+def progress_bar(total: int) -> Iterator[Callable[[int], None] | None]:
+    """A progress bar on standard error for long programs, when that is a terminal."""
+    if total < LONG_PROGRAM or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.progress import Progress
+
+    with Progress(console=console(stderr=True), transient=True) as bar:
+        task = bar.add_task("running", total=total)
+        yield lambda offset: bar.update(task, completed=offset)
+
+
+def fail(message: str, code: int = 2) -> NoReturn:
+    typer.echo(f"ncscope: {message}", err=True)
+    raise typer.Exit(code)
