@@ -25,6 +25,7 @@ LAYERS = (
     "coordinates",
     "machine",
     "motion",
+    "explanation",
     "trajectory",
     "channel",
     "execution lists",

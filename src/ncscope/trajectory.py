@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ncscope.coordinates import Coordinates, Layer
+from ncscope.coordinates import Coordinates
 from ncscope.diagnostics import Diagnostic, render
+from ncscope.explanation import Explanation, Visit, Whereabouts, whereabouts
 from ncscope.frames import Array
 from ncscope.motion import Move
 
@@ -63,34 +64,6 @@ class Stretch:
 
 
 @dataclass(frozen=True)
-class Explanation:
-    """The layers between the programmed word and the axes for one block."""
-
-    file: str
-    line: int
-    block: int | None
-    axes: tuple[str, ...]
-    layers: tuple[Layer, ...]
-
-    def as_dict(self) -> dict[str, Any]:
-        """The form of `explain --format json`."""
-        return {
-            "file": self.file,
-            "line": self.line,
-            "block": self.block,
-            "layers": [
-                {
-                    "name": layer.name,
-                    "origin": layer.origin,
-                    "change": dict(zip(self.axes, map(float, layer.change), strict=True)),
-                    "values": dict(zip(self.axes, map(float, layer.values), strict=True)),
-                }
-                for layer in self.layers
-            ],
-        }
-
-
-@dataclass(frozen=True)
 class Trajectory:
     """The result of a run.
 
@@ -103,7 +76,7 @@ class Trajectory:
     diagnostics: tuple[Diagnostic, ...] = ()
     messages: tuple[Any, ...] = ()
     ok: bool = True
-    _places: Mapping[int, tuple] = field(default_factory=dict, repr=False)
+    _places: Mapping[int, Visit] = field(default_factory=dict, repr=False)
     _file: str = ""
 
     def __len__(self) -> int:
@@ -170,16 +143,19 @@ class Trajectory:
 
         Raises KeyError, naming the nearest line, when the line was not executed.
         """
-        found = self._last_row(line) or self._places.get(line)
-        if found is None:
-            lines = [s.line for s in self.stretches if self._is_main(s)]
-            executed = [*self._places, *(int(v) for column in lines for v in np.unique(column))]
-            near = min(executed, key=lambda other: abs(other - line), default=None)
-            hint = f"; the nearest is line {near}" if near is not None else ""
-            raise KeyError(f"line {line} was not executed{hint}")
-        coordinates, axes, file, block, program, start = found
-        layers = coordinates.layers(program, near=start)
-        return Explanation(file, line, block, axes, layers)
+        at = self._at(line)
+        layers = at.coordinates.layers(at.program, near=at.start)
+        return Explanation(at.file, line, at.block, at.axes, layers)
+
+    def where(self, axes: Mapping[str, float], line: int) -> Whereabouts:
+        """Where the machine is with these axis positions, under the state of a line.
+
+        axes: positions by axis name, mm and degrees; the others stand where the line left them.
+        line: of the main program; of several runs of the line, the last counts.
+        Raises KeyError for an axis that is not in the channel there, and for a line that was not
+        executed, naming the nearest.
+        """
+        return whereabouts(self._at(line), line, axes)
 
     def line_of_block(self, number: int) -> int:
         """The line of the block with this N number that was executed last; KeyError without."""
@@ -187,7 +163,7 @@ class Trajectory:
             rows = np.flatnonzero(s.block == number)
             if len(rows) and self._is_main(s):
                 return int(s.line[rows[-1]])
-        lines = [line for line, place in self._places.items() if place[3] == number]
+        lines = [line for line, place in self._places.items() if place.block == number]
         if not lines:
             raise KeyError(f"block N{number} was not executed")
         return lines[-1]
@@ -228,14 +204,25 @@ class Trajectory:
 
     # --- parts ---------------------------------------------------------------------------------
 
-    def _last_row(self, line: int) -> tuple | None:
+    def _at(self, line: int) -> Visit:
+        """The last run of a line; KeyError, naming the nearest line, when there was none."""
+        found = self._last_row(line) or self._places.get(line)
+        if found is None:
+            lines = [s.line for s in self.stretches if self._is_main(s)]
+            executed = [*self._places, *(int(v) for column in lines for v in np.unique(column))]
+            near = min(executed, key=lambda other: abs(other - line), default=None)
+            hint = f"; the nearest is line {near}" if near is not None else ""
+            raise KeyError(f"line {line} was not executed{hint}")
+        return found
+
+    def _last_row(self, line: int) -> Visit | None:
         for s in reversed(self.stretches):
             rows = np.flatnonzero(s.line == line)
             if len(rows) and self._is_main(s):
                 i = int(rows[-1])
                 block = None if s.block[i] == NO_BLOCK else int(s.block[i])
                 near = s.acs[i - 1] if i else s.start
-                return s.coordinates, s.axes, s.file, block, s.pcs[i], near
+                return Visit(s.coordinates, s.axes, s.file, block, s.pcs[i], near, s.acs[i])
         return None
 
     def _is_main(self, s: Stretch) -> bool:
@@ -264,7 +251,7 @@ class Recorder:
         self.stretches: list[Stretch] = []
         self.axes: list[str] = []
         self.moves = 0
-        self.places: dict[int, tuple] = {}
+        self.places: dict[int, Visit] = {}
         self._open: tuple[Coordinates, tuple[str, ...], Array, str] | None = None
         self._rows: list[tuple] = []
         self._pcs: list[Array] = []
@@ -304,7 +291,7 @@ class Recorder:
         program: Array, position: Array,
     ) -> None:  # fmt: skip
         """A block without motion: what `explain` of its line shows."""
-        self.places[line] = (coordinates, axes, self.file, block, program, position)
+        self.places[line] = Visit(coordinates, axes, self.file, block, program, position, position)
 
     def close(self) -> None:
         if self._open is None:

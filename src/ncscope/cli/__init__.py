@@ -15,6 +15,7 @@ from ncscope import __version__
 from ncscope.cli.check import check_command
 from ncscope.cli.explain import explain_command
 from ncscope.cli.run import run_command
+from ncscope.cli.where import where_command
 
 app = typer.Typer(
     add_completion=False,
@@ -24,6 +25,7 @@ app = typer.Typer(
 )
 app.command("run")(run_command)
 app.command("explain")(explain_command)
+app.command("where")(where_command)
 app.command("check")(check_command)
 
 

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 from rich.table import Table
 
+from ncscope.explanation import Explanation, Whereabouts
 from ncscope.frames import Array
-from ncscope.trajectory import MOTIONS, NO_BLOCK, Explanation, Stretch, Trajectory
+from ncscope.trajectory import MOTIONS, NO_BLOCK, Stretch, Trajectory
 
 FIRST, LAST = 40, 10
 """A long run is shortened to its first and last moves."""
@@ -103,4 +104,20 @@ def explain_table(item: Explanation) -> Table:
         values = [number(v) for v in layer.values]
         label = layer.name if layer.name in ends else ""
         table.add_row(label, *values, "", style="bold" if label else "dim")
+    return table
+
+
+def where_table(item: Whereabouts) -> Table:
+    """One row for each coordinate system, programmed values first, axis positions last."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("", style="bold", no_wrap=True)
+    for axis in item.axes:
+        table.add_column(axis, justify="right", no_wrap=True)
+    if item.direction is not None:
+        table.add_column("tool direction", justify="right", no_wrap=True)
+    for name in ("pcs", "wcs", "mcs", "acs"):
+        row = [name.upper(), *(number(v) for v in getattr(item, name))]
+        if item.direction is not None:
+            row.append(_vector(item.direction) if name == "acs" else "")
+        table.add_row(*row)
     return table

@@ -1,0 +1,81 @@
+"""`ncscope where`: axis positions of the display, seen from a block of a program."""
+
+from __future__ import annotations
+
+import json
+import math
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from ncscope.cli.inputs import run_program
+from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels, read_place
+from ncscope.cli.screen import console, fail, show_diagnostics
+
+
+class WhereFormat(StrEnum):
+    """How the coordinates are written."""
+
+    TABLE = "table"
+    JSON = "json"
+
+
+def where_command(
+    at: Annotated[str, typer.Option("--at", metavar="PROGRAM:LINE", help="Or PROGRAM:N40.")],
+    axes: Annotated[
+        list[str], typer.Option("--axes", metavar="X=1 Y=2 ..", help="Axis positions.")
+    ],
+    more: Annotated[
+        list[str] | None, typer.Argument(metavar="Y=2 ..", help="Further axes.", hidden=True)
+    ] = None,
+    machine: MachineOption = None,
+    format: Annotated[
+        WhereFormat, typer.Option("--format", help="table or json.")
+    ] = WhereFormat.TABLE,
+    clamp: ClampOption = None,
+    skip: SkipOption = "",
+) -> None:
+    """Where axis positions are in PCS, WCS and MCS under the state of a block."""
+    from ncscope.execution import Options
+    from ncscope.kinematics.universal import KinematicsError
+    from ncscope.views.table import where_table
+
+    positions = read_positions([*axes, *(more or ())])
+    path, line, number = read_place(at)
+    result, found, source = run_program(path, machine, Options(clamp, read_levels(skip)))
+    try:
+        if number is not None:
+            line = result.line_of_block(number)
+        place = result.where(positions, line=line)
+    except KeyError as error:
+        show_diagnostics(d for d in [*found, *result.diagnostics] if d.is_error)
+        fail(str(error.args[0]), code=1)
+    except KinematicsError as error:
+        fail(f"the axis positions have no programmed values: {error.message}", code=1)
+    if format is WhereFormat.JSON:
+        typer.echo(json.dumps(place.as_dict(), ensure_ascii=False, indent=1))
+        return
+    terminal = console()
+    terminal.print(f"{place.file}:{line}  {source.source.line_text(line)}", markup=False)
+    terminal.print(where_table(place))
+    if place.assumed:
+        names = " ".join(place.assumed)
+        terminal.print(f"not given, as the block left it: {names}", markup=False)
+
+
+def read_positions(words: list[str]) -> dict[str, float]:
+    """`X=1.5` to name and value, mm or degrees; ends the process when a word is none."""
+    positions: dict[str, float] = {}
+    for word in words:
+        name, mark, text = word.partition("=")
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not name or not mark or not math.isfinite(value):
+            fail(f"--axes {word}: write an axis and its position, for example X=12.5")
+        if name in positions:
+            fail(f"--axes: axis {name} is given twice")
+        positions[name] = value
+    return positions
