@@ -6,6 +6,7 @@ Knows nothing of NC blocks or machines. The ids and their explanations are in `c
 
 from __future__ import annotations
 
+import mmap
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -24,33 +25,119 @@ class Severity(StrEnum):
     NOTE = "note"
 
 
+_PIECE = 2048
+"""Characters between two known line numbers of a source."""
+
+
 @dataclass(frozen=True)
 class Source:
-    """A text and the name that the user knows it by."""
+    """A text and the name that the user knows it by.
+
+    content: the characters, or Latin-1 bytes such as a mapped file, of which only the parts that
+    are looked at become text. Offsets count characters from 0.
+    """
 
     name: str
-    text: str = field(repr=False)
+    content: str | NDArray[np.uint8] = field(repr=False)
+
+    def __len__(self) -> int:
+        return len(self.content)
+
+    @cached_property
+    def text(self) -> str:
+        """All characters; a file of many millions of lines is better read with `part`."""
+        return self.content if isinstance(self.content, str) else self.part(0, len(self))
 
     @cached_property
     def data(self) -> NDArray[np.uint8]:
         """The text as bytes, one a character; `?` for a character beyond Latin-1."""
-        return np.frombuffer(self.text.encode("latin-1", "replace"), dtype=np.uint8)
+        if not isinstance(self.content, str):
+            return self.content.view(np.ndarray)
+        return np.frombuffer(self.content.encode("latin-1", "replace"), dtype=np.uint8)
 
-    @cached_property
-    def line_starts(self) -> NDArray[np.int64]:
-        """Offset of the first character of every line; line 1 is at index 0."""
-        return np.concatenate(([0], np.flatnonzero(self.data == 10) + 1))
+    def part(self, start: int, stop: int) -> str:
+        """The characters from `start` up to `stop`; fewer where the text ends before."""
+        if isinstance(self.content, str):
+            return self.content[start:stop]
+        return self.data[start:stop].tobytes().decode("latin-1")
+
+    def forget(self, stop: int) -> None:
+        """The characters before `stop` are not needed soon: a mapped file leaves the memory."""
+        mapped = self.content.base if isinstance(self.content, np.memmap) else None
+        if isinstance(mapped, mmap.mmap) and hasattr(mmap, "MADV_DONTNEED"):
+            mapped.madvise(mmap.MADV_DONTNEED, 0, stop // mmap.PAGESIZE * mmap.PAGESIZE)
+
+    def end_of_line(self, offset: int) -> int:
+        """Offset of the next line feed at or behind `offset`, or of the end of the text."""
+        while offset < len(self):
+            at = self.part(offset, offset + _PIECE).find("\n")
+            if at >= 0:
+                return offset + at
+            offset += _PIECE
+        return len(self)
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of a character, both counted from 1."""
-        line = int(np.searchsorted(self.line_starts, offset, side="right"))
-        return line, offset - int(self.line_starts[line - 1]) + 1
+        piece = offset // _PIECE
+        before = self.data[piece * _PIECE : offset].tobytes()
+        line = self._line_index.before(piece) + before.count(b"\n") + 1
+        start = before.rfind(b"\n")
+        if start >= 0:
+            return line, len(before) - start
+        return line, offset - self._start_of_line(piece * _PIECE) + 1
 
     def line_text(self, line: int) -> str:
         """The text of line `line` (from 1) without its end-of-line characters."""
-        start = int(self.line_starts[line - 1])
-        end = int(self.line_starts[line]) if line < len(self.line_starts) else len(self.text)
-        return self.text[start:end].rstrip("\r\n")
+        piece = self._line_index.piece_of_line(line)
+        start = piece * _PIECE
+        for _ in range(line - 1 - self._line_index.before(piece)):
+            start = self.end_of_line(start) + 1
+        return self.part(start, self.end_of_line(start)).rstrip("\r\n")
+
+    def _start_of_line(self, offset: int) -> int:
+        while offset > 0:
+            first = max(0, offset - _PIECE)
+            at = self.data[first:offset].tobytes().rfind(b"\n")
+            if at >= 0:
+                return first + at + 1
+            offset = first
+        return 0
+
+    @cached_property
+    def _line_index(self) -> _LineIndex:
+        return _LineIndex(self.data)
+
+
+class _LineIndex:
+    """How many line feeds stand before each piece of a text; counted as far as was asked for."""
+
+    def __init__(self, data: NDArray[np.uint8]) -> None:
+        self.data = data
+        self.counts = np.zeros(1, dtype=np.int64)
+
+    def before(self, piece: int) -> int:
+        """Line feeds before the piece, which begins at `piece * _PIECE`."""
+        if piece >= len(self.counts):
+            self._count(max(piece, 2 * len(self.counts)))
+        return int(self.counts[piece])
+
+    def piece_of_line(self, line: int) -> int:
+        """The last piece that begins before the line does, or the first."""
+        pieces = len(self.data) // _PIECE
+        while self.counts[-1] < line - 1 and len(self.counts) <= pieces:
+            self._count(2 * len(self.counts))
+        return max(0, int(np.searchsorted(self.counts, line - 1, side="left")) - 1)
+
+    def _count(self, last: int) -> None:
+        known, last = len(self.counts), min(last, len(self.data) // _PIECE)
+        counts = np.empty(last + 1, dtype=np.int64)
+        counts[:known] = self.counts
+        for first in range(known - 1, last, 1024):  # all at once would double the memory
+            stop = min(first + 1024, last)
+            rows = self.data[first * _PIECE : stop * _PIECE].reshape(-1, _PIECE)
+            lines = np.count_nonzero(rows == 10, axis=1)
+            counts[first + 1 : stop + 1] = counts[first] + np.cumsum(lines)
+        self.counts = counts
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +158,7 @@ class Span:
 
     @property
     def text(self) -> str:
-        return self.source.text[self.start : self.end]
+        return self.source.part(self.start, self.end)
 
     @property
     def place(self) -> str:

@@ -170,7 +170,7 @@ class _Loop:
         self.returned: Span | None = None
         self.blamed: Callable[[], Span | None] | None = None
         self.scanner: Scanner | None = None
-        long = len(source.text) >= BULK_FROM
+        long = len(source) >= BULK_FROM
         self.bulk = long if options.bulk is None else options.bulk
 
     @property
@@ -291,6 +291,7 @@ def _return_in_main(span: Span) -> Diagnostic:
 
 
 def _no_end(source: Source) -> Diagnostic:
-    end = len(source.text.rstrip())
+    first = max(0, len(source) - 1000)
+    end = first + len(source.part(first, len(source)).rstrip())
     span = Span(source, max(0, end - 1), end)
     return diagnostic("21129", span, "the main program does not end with M02 or M30")

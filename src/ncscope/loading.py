@@ -5,8 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ncscope.diagnostics import Source
 from ncscope.execution import Program
+
+MAPPED_FROM = 256 * 1024 * 1024
+"""Bytes from which a file is mapped."""
 
 
 def load_program(path: str | Path) -> Program:
@@ -15,7 +21,7 @@ def load_program(path: str | Path) -> Program:
     Raises OSError when the file cannot be read.
     """
     path = Path(path)
-    return Program(Source(path.name, _text(path)))
+    return Program(Source(path.name, _content(path)))
 
 
 def subprogram_loader(folders: Iterable[str | Path]) -> Callable[[str], Source | None]:
@@ -31,7 +37,7 @@ def subprogram_loader(folders: Iterable[str | Path]) -> Callable[[str], Source |
             try:
                 path = (root / relative).resolve()
                 if path.is_relative_to(root) and path.is_file():
-                    return Source(path.relative_to(root).as_posix(), _text(path))
+                    return Source(path.relative_to(root).as_posix(), _content(path))
             except (OSError, ValueError):
                 continue
         return None
@@ -39,5 +45,9 @@ def subprogram_loader(folders: Iterable[str | Path]) -> Callable[[str], Source |
     return load
 
 
-def _text(path: Path) -> str:
-    return path.read_bytes().decode("latin-1")
+def _content(path: Path) -> NDArray[np.uint8]:
+    """The bytes of a file. A very large one is mapped; a smaller one is read, because a mapped
+    file that its editor shortens meanwhile would end the process."""
+    if path.stat().st_size >= MAPPED_FROM:
+        return np.memmap(path, dtype=np.uint8, mode="r")
+    return np.frombuffer(path.read_bytes(), dtype=np.uint8)

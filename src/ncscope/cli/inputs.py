@@ -34,7 +34,7 @@ def run_program(
     if any(d.is_error for d in found):  # on the wrong machine every number would be wrong
         return Trajectory((), machine.axis_names, ok=False), found, program
     options = replace(options, load=subprogram_loader([path.parent]))
-    with progress_bar(len(program.source.text)) as progress:
+    with progress_bar(len(program.source)) as progress:
         result = run(machine, program, options, progress)
     return result, found, program
 

@@ -11,8 +11,12 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from ncscope.diagnostics import Source
+
 BLANKS = " \t\0\r"
 LONGEST_LINE = 4000
+_WINDOW = 3 * LONGEST_LINE
+"""Characters that are read at first; joined lines may need more."""
 
 _PIECE = re.compile(
     r"""(?P<blank>[ \t\0\r]+)
@@ -73,22 +77,32 @@ def tokens(text: str, start: int = 0) -> Iterator[Token]:
             written = True
 
 
-def read_line(text: str, start: int) -> Line:
+def read_line(source: Source, start: int) -> Line:
     """The logical line at `start`. Most lines have no comment and are taken as they are."""
-    end = text.find("\n", start)
-    stop = len(text) if end < 0 else end + 1
-    code = text[start : stop if end < 0 else end]
+    stop = source.end_of_line(start)
+    code = source.part(start, stop)
     if _NEEDS_TOKENS.search(code) is None:
-        return Line(code, start, stop, len(code) > LONGEST_LINE)
+        return Line(code, start, min(stop + 1, len(source)), len(code) > LONGEST_LINE)
+    size = _WINDOW
+    while True:
+        text = source.part(start, start + size)
+        line = _joined_line(text, start)
+        if line.stop < start + len(text) or start + len(text) >= len(source):
+            return line
+        size *= 4
+
+
+def _joined_line(text: str, offset: int) -> Line:
+    """The logical line at the beginning of the text, which stands at `offset` of the source."""
     pieces = []
     length = longest = 0
-    for token in tokens(text, start):
+    for token in tokens(text):
         hidden = token.kind in ("comment", "join", "end")
         pieces.append(" " * len(token.text) if hidden else token.text)
         length = 0 if "\n" in token.text else length + len(token.text)
         longest = max(longest, length)
     code = "".join(pieces)
-    return Line(code, start, start + len(code), longest > LONGEST_LINE)
+    return Line(code, offset, offset + len(code), longest > LONGEST_LINE)
 
 
 def _token(text: str, at: int, joined: bool) -> Token:

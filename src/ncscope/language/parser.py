@@ -102,10 +102,10 @@ class BlockReader:
     def __iter__(self) -> Iterator[tuple[Block, Diagnostics]]:
         source, declaring = self.source, False
         pending: Diagnostics = ()
-        mark = next((m for m in _BYTE_ORDER_MARKS if source.text.startswith(m)), "")
+        mark = next((m for m in _BYTE_ORDER_MARKS if source.part(0, 3).startswith(m)), "")
         if mark:
             pending, self.at = (_byte_order_mark(source),), len(mark)
-        while self.at < len(source.text):
+        while self.at < len(source):
             block, found, self.at = parse_block(source, self.at, declarations=declaring)
             if block is None:
                 continue
@@ -136,7 +136,7 @@ class BlockReader:
         """#COMMENT BEGIN and the #COMMENT END behind the lines that it takes away."""
         self.at, more = _behind_comment(self.source, self.at, block.span)
         yield _with(block, (*found, *more))
-        if self.at < len(self.source.text):
+        if self.at < len(self.source):
             ending, found, self.at = parse_block(self.source, self.at)
             self.in_area = False
             if ending is not None:
@@ -151,7 +151,7 @@ def parse_block(
     None for a line with nothing but blanks and comments. `declarations`: the line stands between
     #VAR and #ENDVAR.
     """
-    line = read_line(source.text, start)
+    line = read_line(source, start)
     cursor = Cursor(source, line.code, line.start)
     if not cursor.skip():
         return None, (), line.stop
@@ -321,12 +321,11 @@ def _checked_header(block: Block, found: Diagnostics, in_main: bool) -> tuple[Bl
 
 def _behind_comment(source: Source, at: int, begin: Span) -> tuple[int, Diagnostics]:
     """The offset of the line with #COMMENT END, or the end of the file and what is wrong."""
-    text = source.text
-    while at < len(text):
-        if _COMMENT_END.match(text, at):
+    while at < len(source):
+        end = source.end_of_line(at)
+        if _COMMENT_END.match(source.part(at, end)):
             return at, ()
-        end = text.find("\n", at)
-        at = len(text) if end < 0 else end + 1
+        at = min(end + 1, len(source))
     message = "The file ends inside a block comment."
     return at, (diagnostic("20568", begin, message, "write #COMMENT END on a line of its own"),)
 

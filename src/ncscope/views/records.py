@@ -1,7 +1,6 @@
 """A run as jsonl or csv: one line a move, numbers with full precision, mm and degrees.
 
-The numbers of many moves are turned into text by orjson in one call; a million moves are written
-in seconds.
+A row is a template with gaps (`splicing`); the numbers of many moves become text in one call.
 """
 
 from __future__ import annotations
@@ -16,7 +15,8 @@ import orjson
 
 from ncscope.diagnostics import Diagnostic
 from ncscope.frames import Array
-from ncscope.trajectory import MOTIONS, NO_BLOCK, Stretch, Trajectory
+from ncscope.trajectory import MOTIONS, Stretch, Trajectory
+from ncscope.views.splicing import Template
 
 ROWS = 20_000
 """Moves that are turned into text at a time."""
@@ -68,56 +68,49 @@ def _json(record: Any) -> str:
 
 
 def _json_moves(s: Stretch, first: int) -> Iterator[str]:
-    """Chunks of lines; every number of a move goes into its place of one template."""
-    template = _template(s)
+    """Chunks of lines, one object a move."""
+    template = _json_template(s)
     for start, stop in _chunks(len(s)):
-        rows = _numbers(_matrix(s, s.axes, start, stop))
-        heads = zip(*_heads(s, start, stop, "null"), strict=True)
-        yield "".join(
-            template % (first + start + i, *head, *row.split(","))
-            for i, (head, row) in enumerate(zip(heads, rows, strict=True))
-        )
+        index = np.arange(first + start, first + stop)
+        whole = np.column_stack([index, s.line[start:stop], s.block[start:stop]])
+        yield template.rows(whole, s.motion[start:stop], _matrix(s, s.axes, start, stop))
 
 
-def _template(s: Stretch) -> str:
+def _json_template(s: Stretch) -> Template:
+    gap = "\0"
+
     def system(name: str) -> str:
-        keys = (_json(axis).strip().replace("%", "%%") for axis in _columns(name, s.axes))
-        return '"{}":{{{}}}'.format(name, ",".join(f"{key}:%s" for key in keys))
+        keys = (_json(axis).strip() for axis in _columns(name, s.axes))
+        return '"{}":{{{}}}'.format(name, ",".join(f"{key}:{gap}" for key in keys))
 
-    file = _json(s.file).strip().replace("%", "%%")
-    direction = "null" if s.direction is None else "[%s,%s,%s]"
-    return (
-        f'{{"kind":"move","index":%d,"file":{file},"line":%s,"block":%s,"motion":"%s","feed":%s,'
-        f"{system('pcs')},{system('wcs')},{system('mcs')},"
+    direction = "null" if s.direction is None else f"[{gap},{gap},{gap}]"
+    row = (
+        f'{{"kind":"move","index":{gap},"file":{_json(s.file).strip()},"line":{gap},"block":{gap},'
+        f'"motion":"{gap}","feed":{gap},{system("pcs")},{system("wcs")},{system("mcs")},'
         f'"direction":{direction},{system("acs")}}}\n'
     )
+    return Template(tuple(row.split(gap)), MOTIONS, "null")
 
 
 def _csv_moves(s: Stretch, axes: tuple[str, ...]) -> Iterator[str]:
-    quoted = io.StringIO()
-    csv.writer(quoted, lineterminator="").writerow([s.file])
+    template = _csv_template(s.file, axes)
     for start, stop in _chunks(len(s)):
+        whole = np.column_stack([s.line[start:stop], s.block[start:stop]])
         matrix = _matrix(s, axes, start, stop, direction_last=True)
-        rows = (row.replace("null", "") for row in _numbers(matrix))
-        heads = zip(*_heads(s, start, stop, ""), strict=True)
-        yield "".join(
-            f"{quoted.getvalue()},{','.join(head)},{row}\n"
-            for head, row in zip(heads, rows, strict=True)
-        )
+        yield template.rows(whole, s.motion[start:stop], matrix)
+
+
+def _csv_template(file: str, axes: tuple[str, ...]) -> Template:
+    quoted = io.StringIO()
+    csv.writer(quoted, lineterminator="").writerow([file])
+    numbers = 1 + sum(len(_columns(system, axes)) for system in SYSTEMS) + 3
+    gaps = 3 + numbers  # line, block, motion
+    return Template((f"{quoted.getvalue()},", *[","] * (gaps - 1), "\n"), MOTIONS, "")
 
 
 def _chunks(count: int) -> Iterator[tuple[int, int]]:
     for start in range(0, count, ROWS):
         yield start, min(start + ROWS, count)
-
-
-def _heads(s: Stretch, start: int, stop: int, none: str) -> tuple[list[str], ...]:
-    """Line, block, motion and feed of each move as text."""
-    part = slice(start, stop)
-    blocks = [none if b == NO_BLOCK else str(b) for b in s.block[part].tolist()]
-    feeds = [none if f == "null" else f for f in _numbers(s.feed[part, None])]
-    motions = [MOTIONS[m] for m in s.motion[part].tolist()]
-    return [str(line) for line in s.line[part].tolist()], blocks, motions, feeds
 
 
 def _columns(system: str, axes: tuple[str, ...]) -> tuple[str, ...]:
@@ -128,8 +121,9 @@ def _columns(system: str, axes: tuple[str, ...]) -> tuple[str, ...]:
 def _matrix(
     s: Stretch, axes: tuple[str, ...], start: int, stop: int, direction_last: bool = False
 ) -> Array:
-    """Rows `start` to `stop`: the four systems, the tool direction before or behind the ACS."""
-    parts = []
+    """Rows `start` to `stop`: feed, the four systems, the tool direction before or behind the
+    ACS."""
+    parts = [s.feed[start:stop, None]]
     for system in SYSTEMS:
         values = getattr(s, system)[start:stop]
         wanted = _columns(system, axes)
@@ -140,13 +134,7 @@ def _matrix(
             )
         )
     if s.direction is not None:
-        parts.insert(4 if direction_last else 3, s.direction[start:stop])
+        parts.insert(5 if direction_last else 4, s.direction[start:stop])
     elif direction_last:
         parts.append(np.full((stop - start, 3), np.nan))
     return np.ascontiguousarray(np.concatenate(parts, axis=1))
-
-
-def _numbers(matrix: Array) -> list[str]:
-    """Each row as text with commas: the shortest digits that read back as the same number."""
-    text = orjson.dumps(np.ascontiguousarray(matrix), option=orjson.OPT_SERIALIZE_NUMPY)
-    return text.decode()[2:-2].split("],[")

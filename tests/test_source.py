@@ -1,0 +1,56 @@
+"""A source finds lines and columns alike in text and in bytes, of any length of line."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ncscope.diagnostics import Source
+from ncscope.execution import Options, run
+from ncscope.language import iterate_blocks
+from ncscope.loading import load_program
+from ncscope.machine import Machine
+
+LINES = st.lists(st.integers(0, 5000) | st.integers(0, 3), max_size=40)
+
+
+def sources(text: str) -> tuple[Source, Source]:
+    return Source("p", text), Source("p", np.frombuffer(text.encode("latin-1"), dtype=np.uint8))
+
+
+@given(LINES, st.data())
+def test_position_and_line_text(lengths, data):
+    lines = ["x" * n for n in lengths] or [""]
+    text = "\n".join(lines)
+    offset = data.draw(st.integers(0, len(text)))
+    line = data.draw(st.integers(1, len(lines)))
+    begin = text.rfind("\n", 0, offset) + 1
+    for source in sources(text):
+        assert source.position(offset) == (text.count("\n", 0, offset) + 1, offset - begin + 1)
+        assert source.line_text(line) == lines[line - 1]
+        end = text.find("\n", offset)
+        assert source.end_of_line(offset) == (len(text) if end < 0 else end)
+
+
+@pytest.mark.parametrize("filler", [10, 4000, 20_000, 90_000])
+def test_a_joined_line_of_any_length_is_one_block(filler):
+    text = f"N10 X[1 + \\\n{'; remark' * (filler // 8)}\n2]\nN20 Y2\n"
+    for source in sources(text):
+        blocks = [block for block, _ in iterate_blocks(source)]
+        assert len(blocks) == 2
+        assert blocks[1].span.line == 4
+
+
+def test_a_mapped_file_runs_like_a_read_one(tmp_path, monkeypatch):
+    path = tmp_path / "long.nc"
+    path.write_text("".join(f"N{i} G1 X{i / 10} Y{-i} F100\n" for i in range(1, 5000)) + "M30\n")
+    read = run(Machine(), load_program(path), Options())
+    monkeypatch.setattr("ncscope.loading.MAPPED_FROM", 1)
+    program = load_program(path)
+    assert isinstance(program.source.content, np.memmap)
+    mapped = run(Machine(), program, Options())
+    assert np.array_equal(mapped.acs, read.acs) and len(read) == 4999
+    program.source.forget(len(program.source))
+    assert program.source.line_text(3) == "N3 G1 X0.3 Y-3 F100"
