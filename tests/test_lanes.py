@@ -70,11 +70,30 @@ def test_lanes_agree_on_mixed_programs(lines, end, last):
     assert_equal(FLAT, end.join(lines) + (end if last else ""))
 
 
-@settings(max_examples=60, deadline=None)
-@given(LINES, st.integers(0, 6))
-def test_lanes_agree_under_a_kinematics_and_a_block_limit(lines, limit):
-    text = "#KIN ID [91]\n#TRAFO ON\n" + "\n".join(lines) + "\n"
-    assert_equal(CA_HEAD, text, max_blocks=limit)
+COMPLETE = "V.G.KIN[91].RTCP = 0\n"
+SLANTED = COMPLETE + "V.G.KIN[91].AXIS[4].ORIENTATION[1] = 1\n"
+VECTOR = (
+    "#SET AX [X,1,0] [Y,2,1] [Z,3,2] [A,4,3] [C,5,4] [W,9,5]\nV.G.KIN[91].PROGRAMMING_MODE = 10\n"
+)
+
+
+@settings(max_examples=120, deadline=None)
+@given(LINES, st.integers(0, 6), st.sampled_from(["", COMPLETE, SLANTED, VECTOR]))
+def test_lanes_agree_under_a_kinematics_and_a_block_limit(lines, limit, kinematics):
+    """RTCP, complete, complete with directions out of reach, and a direction as a vector."""
+    text = kinematics + "#KIN ID [91]\n#TRAFO ON\n" + "\n".join(lines) + "\n"
+    assert_equal(CA_HEAD, text, max_blocks=limit and limit + 5)
+
+
+def test_free_axes_continue_from_row_to_row_in_both_lanes():
+    """A vertical tool leaves C free: it keeps its place. Two rows of three are vertical."""
+    rows = "".join(f"X{i} C{20 * i} A{0 if i % 3 else 10 + i}\n" for i in range(60))
+    text = f"{COMPLETE}C33 A5\n#KIN ID [91]\n#TRAFO ON\n{rows}M30\n"
+    assert_equal(CA_HEAD, text)
+    result = ncscope.run(CA_HEAD, text, Options(bulk=True)).check()
+    turning = result.acs[1:, 3].reshape(20, 3)
+    expected = [(60 * k + 179) % 360 - 179 for k in range(20)]  # 60 k in (-180, 180]
+    np.testing.assert_allclose(turning, np.repeat([expected], 3, axis=0).T, atol=1e-9)
 
 
 @pytest.mark.parametrize("cut", range(0, 75, 3))

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from ncscope.contour import NO_CONTOUR, Contour
 from ncscope.frames import Array, Frame
-from ncscope.kinematics.universal import UniversalKinematics
+from ncscope.kinematics.step import KinematicsError, KinematicStep, Pose
 
 OFFSET_KINDS = ("zero", "g92", "pset", "clamp", "measure")
 """Kinds of offset a level can hold, in the order in which they are reported."""
@@ -103,11 +103,15 @@ class ActiveTool:
 
 @dataclass(frozen=True)
 class ActiveKinematics:
-    """A selected kinematics with the pose that it keeps until it is deselected."""
+    """A selected kinematics with the pose that it keeps until it is deselected.
 
-    model: UniversalKinematics
-    pose: int | None = None
+    turns_direction: coordinate systems turn the programmed direction too (P-CHAN-00247).
+    """
+
+    model: KinematicStep
+    pose: Pose | None = None
     origin: str | None = None
+    turns_direction: bool = False
 
 
 class Layer(NamedTuple):
@@ -124,6 +128,7 @@ class Coordinates:
     """The chain that is valid for one block.
 
     axis_count: columns of every array. levels: from the workpiece level 0 to the innermost one.
+    program_step: what maps programmed values before everything else (#TRAFO PCS).
     Source: TF5200 coordinate systems and offsets; FCT-C2; TF5200 #CS; FCT-C27.
     """
 
@@ -132,6 +137,7 @@ class Coordinates:
     tool: ActiveTool = ActiveTool()
     kinematics: ActiveKinematics | None = None
     contour: Contour = NO_CONTOUR
+    program_step: ActiveKinematics | None = None
 
     def __post_init__(self) -> None:
         """Raises ValueError for a coordinate system over fewer than three main axes."""
@@ -150,9 +156,12 @@ class Coordinates:
         """
         return self.axes_from_mcs(self.to_mcs(program), near)
 
-    def to_program(self, axes: ArrayLike) -> Array:
-        """The programmed values (..., n) that lead to the axis positions `axes` (..., n)."""
-        return self.program_from_mcs(self.mcs_from_axes(axes))
+    def to_program(self, axes: ArrayLike, near: ArrayLike | None = None) -> Array:
+        """The programmed values (..., n) that lead to the axis positions `axes` (..., n).
+
+        near: (n,) programmed values; of several ways to write a direction the nearest is taken.
+        """
+        return self.program_from_mcs(self.mcs_from_axes(axes, near), near)
 
     def layers(self, program: ArrayLike, near: ArrayLike | None = None) -> tuple[Layer, ...]:
         """Each layer from the programmed values (n,) down to the axes, with its contribution."""
@@ -169,38 +178,39 @@ class Coordinates:
 
     def to_mcs(self, program: ArrayLike) -> Array:
         """Tool tip in the Cartesian machine system; axes beyond the third with their offsets."""
-        values = self.contour.apply(program)
+        values = self.contour.apply(self._mapped(program))
         return self._affine(values, self.mcs_frame, self._offset_total)
 
     def to_wcs(self, program: ArrayLike) -> Array:
         """The same point with all coordinate systems undone, without the offsets of level 0."""
         return self.to_mcs(program) - self._total(self.levels[0])
 
-    def program_from_mcs(self, mcs: ArrayLike) -> Array:
+    def program_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Programmed values (..., n) of a tool tip (..., n) in the machine system."""
         result = np.array(mcs, dtype=float)
         n = min(3, self.axis_count)
         result[..., 3:] -= self._offset_total[3:]
         back = self._main(self.mcs_frame.inverse)
         result[..., :n] = _transformed(result[..., :n], *back)
-        return self.contour.invert(result)
+        return self._unmapped(self.contour.invert(result), near)
 
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Axis positions (..., n) for a tool tip (..., n) in the machine system."""
-        position = np.asarray(mcs, dtype=float) - self.tool_vector
-        active = self.kinematics
-        if active is None:
-            return position
-        return active.model.inverse(
-            position, tool_length=self.tool.length, near=near, pose=active.pose
-        )
+        return self._solved(np.asarray(mcs, dtype=float) - self.tool_vector, near)
 
-    def mcs_from_axes(self, axes: ArrayLike) -> Array:
-        """Tool tip (..., n) in the machine system for axis positions (..., n)."""
+    def mcs_from_axes(self, axes: ArrayLike, near: ArrayLike | None = None) -> Array:
+        """Tool tip (..., n) in the machine system for axis positions (..., n).
+
+        near: (n,) programmed values, as for `to_program`.
+        """
         position = np.asarray(axes, dtype=float)
         active = self.kinematics
         if active is not None:
-            position = active.model.program(position, tool_length=self.tool.length)
+            self._check_vector(active)
+            if near is not None:
+                near = self.to_mcs(near) - self.tool_vector
+            length = self.tool.length
+            position = active.model.program(position, length, near, self._turn)
         return position + self.tool_vector
 
     def direction(self, axes: ArrayLike) -> Array | None:
@@ -214,12 +224,12 @@ class Coordinates:
     def level_from_program(self, program: ArrayLike) -> Array:
         """Values (..., n) of the innermost level with its offsets and, where the tool lies in
         the level, without the tool: what stays put when an offset changes."""
-        return self.contour.apply(program) + self.top_total - self._tool_in_level
+        return self.contour.apply(self._mapped(program)) + self.top_total - self._tool_in_level
 
     def program_from_level(self, level: ArrayLike) -> Array:
         """The programmed values (..., n) that show for level-absolute values (..., n)."""
         values = np.asarray(level, dtype=float) - self.top_total + self._tool_in_level
-        return self.contour.invert(values)
+        return self._unmapped(self.contour.invert(values))
 
     def suppressed(self, kinds: frozenset[str]) -> Coordinates:
         """The same chain without the offsets of these kinds in any level; `tool` takes the tool
@@ -305,13 +315,47 @@ class Coordinates:
         return frame.rotation[:n, :n], frame.shift[:n]
 
     @property
-    def _kinematics_alone(self) -> Coordinates:
-        tool = replace(self.tool, axis_offsets=())
-        return replace(self, levels=(BASE_LEVEL,), tool=tool, contour=NO_CONTOUR)
+    def _turn(self) -> Array | None:
+        """Rotation (3, 3) that the levels give to a programmed direction; None without one."""
+        active = self.kinematics
+        turned = active is not None and active.turns_direction and active.model.orientation
+        return self.mcs_frame.rotation if turned and len(self.levels) > 1 else None
+
+    def _solved(self, position: Array, near: ArrayLike | None) -> Array:
+        """Axis positions for a tool tip with the tool offsets taken off."""
+        active = self.kinematics
+        if active is None:
+            return position
+        self._check_vector(active)
+        return active.model.inverse(position, self.tool.length, near, active.pose, self._turn)
+
+    def _check_vector(self, active: ActiveKinematics) -> None:
+        """An offset added to the components of a direction would turn it: refused."""
+        columns = [c for c in active.model.orientation if c < self.axis_count]
+        if len(columns) > 2 and (self._offset_total - self.tool_vector)[columns].any():
+            raise KinematicsError(
+                "N2001",
+                "an offset of the axes that hold the tool direction (U, V, W) is not supported",
+                (0,),
+                "take their zero offset, G92, #PSET and tool offset away",
+            )
+
+    def _mapped(self, program: ArrayLike) -> ArrayLike:
+        step = self.program_step
+        return program if step is None else step.model.inverse(program, pose=step.pose)
+
+    def _unmapped(self, values: Array, near: ArrayLike | None = None) -> Array:
+        return (
+            values
+            if self.program_step is None
+            else self.program_step.model.program(values, near=near)
+        )
 
     def _steps(self, near: ArrayLike | None) -> Iterator[tuple]:
         """Every layer as name, origin and the function that applies it."""
         n = self.axis_count
+        if self.program_step is not None:
+            yield "#TRAFO PCS", self.program_step.origin, self._mapped
         yield from self.contour.steps()
         for k in range(len(self.levels) - 1, -1, -1):
             level = self.levels[k]
@@ -323,8 +367,7 @@ class Coordinates:
         if self.tool.origin is not None or np.any(self.tool_vector):
             yield "tool", self.tool.origin, _adder(-self.tool_vector)
         if self.kinematics is not None:
-            active = self._kinematics_alone
-            yield "kinematics", self.kinematics.origin, _solver(active, near)
+            yield "kinematics", self.kinematics.origin, lambda x: self._solved(x, near)
 
 
 def _main_axes(values: Array) -> Array:
@@ -352,7 +395,3 @@ def _mover(frame: Frame, n: int):
         return y
 
     return move
-
-
-def _solver(coordinates: Coordinates, near: ArrayLike | None):
-    return lambda x: coordinates.axes_from_mcs(x, near)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from ncscope.kinematics.parameters import KinematicParameters
 
 if TYPE_CHECKING:
-    from ncscope.kinematics.universal import UniversalKinematics
+    from ncscope.kinematics.step import Builder, KinematicStep
 
 ZERO_GROUPS = 97
 """Zero offset groups 0..96 (P-ZERO-00002)."""
@@ -105,6 +105,7 @@ class ChannelSettings:
     rotation_sequence: str = "ZYX"  # P-CHAN-00394
     rotation_fixed: bool = False  # P-CHAN-00393
     offsets_per_level: bool = True  # P-CHAN-00397
+    direction_turns: bool = False  # P-CHAN-00247 ori_wcs
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +115,7 @@ class Machine:
     `axes` are in channel order: index 0, 1, 2 are the main axes. `known_axes` are all axes that
     axis lists describe or the channel lists, by logical number: `#SET AX` fetches from them; when
     it is empty any number may be fetched. `kinematic_parameters`: by kinematic id.
+    `kinematic_types`: what makes a kinematics of a data set, by type number; 91 is built in.
     """
 
     name: str = "XYZ"
@@ -124,13 +126,14 @@ class Machine:
     tools: Mapping[int, Tool] = field(default_factory=dict)
     kinematic_parameters: Mapping[int, KinematicParameters] = field(default_factory=dict)
     settings: ChannelSettings = ChannelSettings()
+    kinematic_types: Mapping[int, Builder] = field(default_factory=dict)
 
     @property
     def axis_names(self) -> tuple[str, ...]:
         return tuple(axis.name for axis in self.axes)
 
     @property
-    def kinematics(self) -> Mapping[int, UniversalKinematics]:
+    def kinematics(self) -> Mapping[int, KinematicStep]:
         """The kinematics by id, ready for `forward` and `inverse`.
 
         Access raises KinematicsError where the lists do not describe a usable kinematics.
@@ -138,17 +141,17 @@ class Machine:
         return _Kinematics(self)
 
 
-class _Kinematics(Mapping[int, "UniversalKinematics"]):
+class _Kinematics(Mapping[int, "KinematicStep"]):
     def __init__(self, machine: Machine) -> None:
         self._machine = machine
 
-    def __getitem__(self, id: int) -> UniversalKinematics:
-        from ncscope.kinematics.universal import UniversalKinematics
+    def __getitem__(self, id: int) -> KinematicStep:
+        from ncscope.kinematics.building import build
 
         machine = self._machine
         parameters = machine.kinematic_parameters[id]
         mode = machine.settings.orientation_mode
-        return UniversalKinematics.from_parameters(parameters, machine.axis_names, mode)
+        return build(parameters, machine.axis_names, mode, machine.kinematic_types)
 
     def __iter__(self) -> Iterator[int]:
         return iter(sorted(self._machine.kinematic_parameters))

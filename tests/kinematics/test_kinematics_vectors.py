@@ -35,14 +35,13 @@ def parametrise(group: str):
 def solve(kin: UniversalKinematics, case: dict, pose: int | None) -> np.ndarray:
     """Axis values of a vector; a coordinate system moves X, Y, Z and maybe the direction."""
     program = np.array(case["pcs"])
-    direction = None
+    turn = None
     if "cs" in case:
         rotation = np.array(case["cs"]["R"])
-        if case["cs"]["ori_wcs"] and not kin.rtcp:
-            direction = rotation @ kin.programmed_direction(program)
+        turn = rotation if case["cs"]["ori_wcs"] else None
         program[:3] = rotation @ program[:3] + case["cs"]["t"]
     near = case.get("prev_acs")
-    return kin.inverse(program, case["tool_length_mm"], near=near, pose=pose, direction=direction)
+    return kin.inverse(program, case["tool_length_mm"], near=near, pose=pose, turn=turn)
 
 
 @parametrise("vectors")

@@ -17,7 +17,8 @@ from ncscope.channel.gfunctions import GFUNCTIONS
 from ncscope.channel.rules import RULES, later, reject_unused
 from ncscope.channel.state import State
 from ncscope.channel.words import Words, collect_axes, refuse_path_condition
-from ncscope.diagnostics import Diagnostic, Span
+from ncscope.diagnostics import Diagnostic, Span, diagnostic
+from ncscope.kinematics.step import KinematicsError
 from ncscope.language import tree
 from ncscope.language.commands import lookup
 from ncscope.machine import Machine
@@ -50,6 +51,9 @@ def execute(machine: Machine, state: State, block: tree.Block) -> Step:
         _execute(draft, block)
     except BlockError as error:
         return Step(state, diagnostics=(*draft.diagnostics, error.diagnostic))
+    except KinematicsError as error:
+        found = diagnostic(error.id, block.span, error.message, error.hint)
+        return Step(state, diagnostics=(*draft.diagnostics, found))
     return Step(
         draft.state,
         tuple(draft.moves),

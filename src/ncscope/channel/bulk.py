@@ -14,7 +14,7 @@ from numba import njit
 
 from ncscope.channel.state import Position, State
 from ncscope.frames import Array
-from ncscope.kinematics.universal import KinematicsError
+from ncscope.kinematics.step import KinematicsError
 from ncscope.language.scanner import PlainRows
 from ncscope.trajectory import MOTIONS, Stretch
 
@@ -53,8 +53,7 @@ def advance(state: State, rows: PlainRows, file: str, limit: int) -> tuple[State
 
 def _factors(state: State) -> Array:
     """Millimetres or degrees of one programmed unit, by channel axis."""
-    length = state.modal.length_factor
-    return np.array([1.0 if axis.rotary else length for axis in state.axes])
+    return np.array([state.unit(axis) for axis in range(len(state.axes))])
 
 
 def _filled_codes(codes, before: int):

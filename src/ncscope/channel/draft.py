@@ -15,7 +15,7 @@ import numpy as np
 from ncscope.channel.state import Modal, Position, State
 from ncscope.coordinates import Coordinates
 from ncscope.diagnostics import Diagnostic, Span, diagnostic
-from ncscope.kinematics.universal import KinematicsError
+from ncscope.kinematics.step import KinematicsError
 from ncscope.machine import Machine
 from ncscope.motion import Move
 
@@ -77,11 +77,11 @@ class Draft:
 
     def length(self, axis: int, value: float) -> float:
         """A programmed value of an axis in mm or degrees."""
-        return value if self.state.axes[axis].rotary else value * self.state.modal.length_factor
+        return value * self.state.unit(axis)
 
     def shown(self, axis: int, value: float) -> float:
         """A value in mm or degrees as the program reads it (inches under G70)."""
-        return value if self.state.axes[axis].rotary else value / self.state.modal.length_factor
+        return value / self.state.unit(axis)
 
     # --- changes -------------------------------------------------------------------------------
 
@@ -97,19 +97,30 @@ class Draft:
         try:
             self.state = self.state.with_coordinates(coordinates)
         except KinematicsError as error:
-            self.fail(error.id, span, error.message)
+            self.fail(error.id, span, error.message, error.hint)
 
     def move_to(
-        self, program: np.ndarray, span: Span, coordinates: Coordinates | None = None
+        self,
+        program: np.ndarray,
+        span: Span,
+        coordinates: Coordinates | None = None,
+        direction: Span | None = None,
     ) -> None:
-        """A motion to programmed values (n,), mm and degrees; `coordinates` for this one alone."""
+        """A motion to programmed values (n,), mm and degrees; `coordinates` for this one alone.
+
+        direction: the word that gives the tool direction, blamed where that cannot be reached.
+        """
         state = self.state
         chain = coordinates or state.coordinates
         try:
             axes = chain.to_axes(program, near=state.position.axes)
-            shown = program if coordinates is None else state.coordinates.to_program(axes)
+            shown = program
+            if coordinates is not None:
+                shown = state.coordinates.to_program(axes, near=program)
         except KinematicsError as error:
-            self.fail(error.id, span, error.message)
+            if direction is not None and error.id in ("292014", "292007"):
+                span = direction
+            self.fail(error.id, span, error.message, error.hint)
         if not np.all(np.isfinite(axes)):
             self.fail("21883", span, "the axis position is too large to be computed")
         self.state = replace(state, position=Position(axes, shown))

@@ -179,9 +179,16 @@ def _motion(draft: Draft, words: Words) -> None:
     if modes.motion == "G01" and modes.feed is None and not modes.feed_warned:
         draft.warn("20008", span, "a feed motion is programmed without a feed (F)")
         draft.modal(feed_warned=True)
-    draft.move_to(program, span)
+    draft.move_to(program, span, direction=_direction_word(draft, words))
     words.axes.clear()
     return None
+
+
+def _direction_word(draft: Draft, words: Words) -> Span | None:
+    """The first word of the block that gives the tool direction."""
+    active = draft.state.coordinates.kinematics
+    columns = () if active is None else active.model.orientation
+    return next((words.axes[axis][1] for axis in columns if axis in words.axes), None)
 
 
 def _measure(draft: Draft, words: Words) -> None:
@@ -200,7 +207,9 @@ def _check_modulo(draft: Draft, axis: int, words: Words, value: float) -> None:
     """On a modulo axis a sign is a turning direction, and values wrap; neither is modelled, so
     only values for which it makes no difference pass."""
     limits = draft.state.axes[axis].modulo_range
-    if limits is None:
+    active = draft.state.coordinates.kinematics
+    in_space = active is not None and axis in active.model.orientation
+    if limits is None or in_space:
         return
     signed = draft.modes.absolute and axis in words.signed
     if signed or not limits[0] <= value < limits[1]:

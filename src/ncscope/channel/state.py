@@ -161,6 +161,12 @@ class State:
         """Channel indices of the first, second and third axis of the plane."""
         return {17: (0, 1, 2), 18: (2, 0, 1), 19: (1, 2, 0)}[self.modal.plane]
 
+    def unit(self, axis: int) -> float:
+        """Mm or degrees of one programmed unit; a word of a direction in space has no unit."""
+        active = self.coordinates.kinematics
+        bare = active is not None and axis in active.model.orientation
+        return 1.0 if bare or self.axes[axis].rotary else self.modal.length_factor
+
     def with_coordinates(self, coordinates: Coordinates, *, keep: str = "axes") -> State:
         """The state under other coordinates; nothing moves.
 
@@ -171,6 +177,8 @@ class State:
             level = self.coordinates.level_from_program(self.position.program)
             program = coordinates.program_from_level(level)
         else:
-            program = coordinates.to_program(self.position.axes)
+            both = self.coordinates.kinematics is not None and coordinates.kinematics is not None
+            near = self.position.program if both else None
+            program = coordinates.to_program(self.position.axes, near)
         position = Position(self.position.axes, program)
         return replace(self, coordinates=coordinates, position=position)

@@ -2,7 +2,8 @@
 
 Reading order: `parameters` (the 70 numbers of a data set), `chain` (the same in mm and unit
 vectors, and its faults), `kernels` (compiled loops: tool from axes, linear axes from tool),
-`orientation` (tool direction <-> rotary axes), `universal` (programming modes, the public class).
+`orientation` (tool direction <-> rotary axes), `step` (what any kinematics has to offer),
+`universal` (programming modes, the public class).
 
 Frames: the workpiece system with all axes at 0. Units: mm and degrees. Rotations follow the
 right-hand rule about the entered direction. The tool direction points from the tip to the flange.
@@ -16,7 +17,8 @@ from ncscope.kinematics.parameters import (
     KinematicParameters,
     field_index,
 )
-from ncscope.kinematics.universal import KinematicsError, UniversalKinematics, explain_status
+from ncscope.kinematics.step import KinematicsError, KinematicStep, TwoSteps
+from ncscope.kinematics.universal import UniversalKinematics, explain_status
 
 __all__ = [
     "CLASSIC",
@@ -25,8 +27,10 @@ __all__ = [
     "Chain",
     "Fault",
     "KinematicParameters",
+    "KinematicStep",
     "KinematicsError",
     "OrientationSolver",
+    "TwoSteps",
     "UniversalKinematics",
     "explain_status",
     "field_index",

@@ -76,6 +76,10 @@ class OrientationSolver:
         low, high = _reach_rad(self.angles[0], self.angles[1])
         return math.degrees(low), math.degrees(high)
 
+    def tilt(self, direction: Array) -> float:
+        """Angle in degrees between a direction (3,) and the first axis (tool's side of it)."""
+        return math.degrees(_angle_rad(self.angles[2] * self.geometry[0], direction))
+
     @property
     def turning_point(self) -> float:
         """Second angle in degrees where the two poses meet: the tool is closest to axis one."""

@@ -17,29 +17,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from ncscope.kinematics import kernels
 from ncscope.kinematics.chain import CLASSIC, DIRECT, POINT_VECTOR, Chain, validate
-from ncscope.kinematics.orientation import OrientationSolver
+from ncscope.kinematics.orientation import REACH_TOLERANCE_DEG, OrientationSolver
 from ncscope.kinematics.parameters import KinematicParameters
+from ncscope.kinematics.step import KinematicsError
 
 Array = NDArray[np.float64]
 Status = NDArray[np.int8]
 
+_SAME_DIRECTION = 1e-12
+"""Directions that differ by less are one: rounding is far below, the resolution far above."""
+
 _LETTER_AXES = {"A": (1.0, 0.0, 0.0), "B": (0.0, 1.0, 0.0), "C": (0.0, 0.0, 1.0)}
-
-
-class KinematicsError(Exception):
-    """Rows that have no solution, or parameters that describe no machine.
-
-    id: the control's error number. rows: indices of the failing rows (of the flattened input).
-    """
-
-    def __init__(self, id: str, message: str, rows: tuple[int, ...] = ()) -> None:
-        super().__init__(f"{id}: {message}")
-        self.id = id
-        self.message = message
-        self.rows = rows
-
-    def __reduce__(self) -> tuple[type, tuple[str, str, tuple[int, ...]]]:
-        return type(self), (self.id, self.message, self.rows)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,20 +95,28 @@ class UniversalKinematics:
         tip, direction = self._forward_rows(rows, tool_length)
         return tip.reshape(*shape, 3), direction.reshape(*shape, 3)
 
+    @property
+    def orientation(self) -> tuple[int, ...]:
+        """Channel columns of the programmed direction; none with RTCP."""
+        if self.rtcp:
+            return ()
+        columns = (3, 4, 5) if self.mode == POINT_VECTOR else self.angle_columns
+        return tuple(c for c in columns if c >= 0)
+
     def inverse(
         self,
         program: ArrayLike,
         tool_length: float = 0.0,
         near: ArrayLike | None = None,
         pose: ArrayLike | None = None,
-        direction: ArrayLike | None = None,
+        turn: Array | None = None,
     ) -> Array:
         """Axis values (..., n_channel); arguments as for `inverse_rows`.
 
         Raises KinematicsError naming the rows that cannot be solved.
         """
-        axes, status = self.inverse_rows(program, tool_length, near, pose, direction)
-        self._raise_for(status)
+        axes, status = self.inverse_rows(program, tool_length, near, pose, turn)
+        self._raise_for(status, program, turn)
         return axes
 
     def inverse_rows(
@@ -129,7 +125,7 @@ class UniversalKinematics:
         tool_length: float = 0.0,
         near: ArrayLike | None = None,
         pose: ArrayLike | None = None,
-        direction: ArrayLike | None = None,
+        turn: Array | None = None,
     ) -> tuple[Array, Status]:
         """Axis values (..., n_channel) and a status (...): 0 ok, else see `kernels`.
 
@@ -139,46 +135,45 @@ class UniversalKinematics:
             that the direction leaves free keeps this value, each row continuing from the one
             before. Axes at 0 when left out.
         pose: +1 or -1, one or one a row; the pose of `near` when left out (D-3).
-        direction: (..., 3) tool directions to use instead of the programmed ones, for callers
-            that rotate them with a coordinate system (P-CHAN-00247). Not used with RTCP.
+        turn: rotation (3, 3) of the programmed direction, for callers that turn it with a
+            coordinate system (P-CHAN-00247). Not used with RTCP.
         Rows without a solution have NaN in X, Y, Z.
         """
         rows, shape = self._rows(program, self._columns())
         axes, status = rows.copy(), np.zeros(len(rows), np.int8)
         if not self.rtcp:
-            if direction is None:
-                wanted = self._programmed_directions(rows)
-            else:
-                wanted = np.require(direction, np.float64, ["C", "W"]).reshape(-1, 3)
-            self._turn_rotary(axes, status, wanted, near, pose)
+            self._turn_rotary(axes, status, self._directions(rows, turn), near, pose)
         target = self._forward_rows(rows, 0.0)[0] if self.mode == DIRECT else rows
         joints, flange, _, unlinkage = self.packed
         kernels.solve_rows(joints, flange, unlinkage, target, float(tool_length), axes, status)
         return axes.reshape(*shape, axes.shape[1]), status.reshape(shape)
 
     def program(
-        self, axes: ArrayLike, tool_length: float = 0.0, near: ArrayLike | None = None
+        self,
+        axes: ArrayLike,
+        tool_length: float = 0.0,
+        near: ArrayLike | None = None,
+        turn: Array | None = None,
     ) -> Array:
         """Programmed values (..., n_channel) that lead to these axis values.
 
-        axes: (..., n_channel). near: programmed values (n_channel,) or one row for each row; of
-        the two angle pairs of a classic mode with rtcp 0 the nearest is taken (D-12), nearest to
-        the axis angles when left out. The tool direction is given as a unit vector in mode 10.
+        axes: (..., n_channel). near: programmed values (n_channel,) or one row for each row; where
+        they mean the direction of the tool they stay, else of two angle pairs the nearest is taken
+        (D-12), nearest to the axis angles when left out. turn: as for `inverse_rows`. The tool
+        direction is given as a unit vector in mode 10.
         Raises KinematicsError naming the rows that cannot be solved.
         """
         rows, shape = self._rows(axes, self._columns())
         tip, direction = self._forward_rows(rows, tool_length)
         program, status = rows.copy(), np.zeros(len(rows), np.int8)
+        if not self.rtcp:
+            status |= self._name_direction(program, direction, near, turn)
         if self.mode == DIRECT:
             joints, flange, _, unlinkage = self.packed
             kernels.solve_rows(joints, flange, unlinkage, tip, 0.0, program, status)
         else:
             program[:, :3] = tip
-        if self.mode == POINT_VECTOR:
-            program[:, 3:6] = direction
-        elif self.mode in CLASSIC and not self.rtcp:
-            status |= self._name_angles(program, direction, near)
-        self._raise_for(status)
+        self._raise_for(status, program, turn)
         return program.reshape(*shape, program.shape[1])
 
     def programmed_direction(self, program: ArrayLike) -> Array:
@@ -258,8 +253,37 @@ class UniversalKinematics:
         for k, column in enumerate(self.chain.rotary):
             axes[:, column] = angles[:, k]
 
+    def _directions(self, rows: Array, turn: Array | None) -> Array:
+        """Directions (m, 3) that the rows ask for in the workpiece system, of any length."""
+        directions = self._programmed_directions(rows)
+        return directions if turn is None else _turned(directions, turn)
+
+    def _name_direction(
+        self, program: Array, directions: Array, near: ArrayLike | None, turn: Array | None
+    ) -> Status:
+        """Writes the columns that program the unit directions (m, 3)."""
+        if turn is not None:
+            directions = _turned(directions, np.ascontiguousarray(turn.T))
+        status = np.zeros(len(program), np.int8)
+        if self.mode == POINT_VECTOR:
+            program[:, 3:6] = directions
+        elif self.mode in CLASSIC or turn is not None:
+            status |= self._name_angles(program, directions, near)
+        if near is not None:
+            self._keep_words(program, directions, self._rows(near, self._columns())[0])
+        return status
+
+    def _keep_words(self, program: Array, directions: Array, near: Array) -> None:
+        """Leaves a direction as it was written where it means the same: `C200` stays `C200`."""
+        meant = self._programmed_directions(near)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            meant = meant / np.linalg.norm(meant, axis=1, keepdims=True)
+        same = np.abs(meant - directions).max(axis=1) < _SAME_DIRECTION
+        columns = list(self.orientation)
+        program[:, columns] = np.where(same[:, None], near[:, columns], program[:, columns])
+
     def _name_angles(self, program: Array, directions: Array, near: ArrayLike | None) -> Status:
-        """Writes the two programmed angles of a classic mode for directions (m, 3)."""
+        """Writes the two programmed angles for directions (m, 3)."""
         assert self.program_solver is not None
         start = _pick(program, self.angle_columns)
         if near is not None:
@@ -272,13 +296,30 @@ class UniversalKinematics:
                 program[:, column] = angles[:, k]
         return status
 
-    def _raise_for(self, status: Status) -> None:
-        flat = status.reshape(-1)
-        bad = np.flatnonzero(flat)
-        if len(bad) == 0:
+    def _raise_for(self, status: Status, program: ArrayLike, turn: Array | None) -> None:
+        if not status.any():
             return
-        id, message = explain_status(self, int(flat[bad[0]]))
-        raise KinematicsError(id, message, tuple(int(i) for i in bad))
+        bad = np.flatnonzero(status.reshape(-1))
+        code = int(status.reshape(-1)[bad[0]])
+        id, message = explain_status(self, code)
+        hint = ""
+        if code == kernels.UNREACHABLE:
+            rows, _ = self._rows(program, self._columns())
+            hint = self._reach_hint(self._directions(rows[bad[:1]], turn)[0])
+        raise KinematicsError(id, message, tuple(int(i) for i in bad), hint)
+
+    def _reach_hint(self, direction: Array) -> str:
+        """The tilt that the machine can reach, and the one that was asked for."""
+        solver = self.rotary_solver
+        if solver is None or not self.chain.rotary:
+            return ""
+        first = self.axis_names[self.chain.rotary[0]]
+        low, high = solver.reach
+        tilt = solver.tilt(direction)
+        span = f"{low:.4f}" if high - low < REACH_TOLERANCE_DEG else f"{low:.4f} to {high:.4f}"
+        return (
+            f"the angle between tool and axis {first} can be {span} degrees; here it is {tilt:.4f}"
+        )
 
 
 def explain_status(kinematics: UniversalKinematics, status: int) -> tuple[str, str]:
@@ -316,6 +357,12 @@ def _angle_columns(chain: Chain, mode: int, names: tuple[str, ...]) -> tuple[int
     spare = iter([a for a in candidates if a < 5 and a not in found])
     first, second = (a if a >= 0 else next(spare, -1) for a in found)
     return first, second
+
+
+def _turned(vectors: Array, turn: Array) -> Array:
+    """turn @ vector for vectors (m, 3), summed in one order so that one row and a million agree."""
+    x, y, z = vectors[:, 0], vectors[:, 1], vectors[:, 2]
+    return np.stack([row[0] * x + row[1] * y + row[2] * z for row in turn], axis=1)
 
 
 def _pair(indices: tuple[int, ...]) -> tuple[int, int]:

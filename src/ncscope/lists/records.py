@@ -27,6 +27,7 @@ SETTINGS_OF_KEYS = {
     "move_tool_offsets_directly": "tool_moves_at_once",
     "einrechnen_mit_t": "tool_with_t",
     "p_param_haltend": "keep_parameters",
+    "ori_wcs": "direction_turns",
     "coordinate_system.rotation_sequence": "rotation_sequence",
     "coordinate_system.rotation_mode_fixed": "rotation_fixed",
     "coordinate_system.axes_offsets_layer_specific": "offsets_per_level",

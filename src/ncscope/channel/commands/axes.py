@@ -160,7 +160,7 @@ def channel_init(draft: Draft, command: tree.HashCommand) -> None:
         elif item.key != "AXNR":
             draft.fail("N1005", item.span, "only AX=.. and AXNR=.. can stand here")
     state = draft.state
-    program = state.coordinates.to_program(state.position.axes)
+    program = state.coordinates.to_program(state.position.axes, near=state.position.program)
     draft.state = replace(state, position=Position(state.position.axes, program))
 
 

@@ -86,7 +86,7 @@ def suppress(draft: Draft, command: tree.HashCommand) -> None:
         what = "#SUPPRESS OFFSETS needs an axis and its position"
         draft.fail("N1005", command.span, what, "write for example #SUPPRESS OFFSETS X50")
     chain = draft.state.coordinates.suppressed(_kinds(draft, command))
-    program = chain.to_program(draft.state.position.axes)
+    program = chain.to_program(draft.state.position.axes, near=draft.state.position.program)
     for axis, (value, _) in words.items():
         program[axis] = draft.length(axis, value)
     draft.move_to(program, command.span, chain)

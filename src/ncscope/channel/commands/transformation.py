@@ -66,18 +66,8 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     for fault in validate(parameters, len(names), settings.orientation_mode, names):
         _report(draft, command.span, parameters, fault)
     model = UniversalKinematics.from_parameters(parameters, names, settings.orientation_mode)
-    if not model.rtcp:
-        draft.fail(
-            "N2001",
-            command.span,
-            f"kinematics {parameters.id} with a complete transformation (rtcp = 0) "
-            "is not supported yet",
-            "set rtcp to 1 to pass the programmed angles on to the axes",
-        )
-    active = ActiveKinematics(
-        model,
-        origin=draft.place,
-    )
+    pose = model.pose_of(draft.state.position.axes)
+    active = ActiveKinematics(model, pose, draft.place, settings.direction_turns)
     draft.set_coordinates(replace(draft.state.coordinates, kinematics=active), command.span)
 
 

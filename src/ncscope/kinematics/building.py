@@ -1,0 +1,50 @@
+"""A data set to a kinematics that can be used: which type of kinematics it describes.
+
+Type 91 is built in. Other types come from the caller as builders by type number: the control's
+own library, or the kinematics of the user (500 to 999).
+Source: P-CHAN-00262 (id), P-CHAN-00829 (type).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ncscope.kinematics.parameters import KinematicParameters
+from ncscope.kinematics.step import Builder, KinematicsError, KinematicStep
+from ncscope.kinematics.universal import UniversalKinematics
+
+UNIVERSAL = 91
+
+
+def type_of(parameters: KinematicParameters) -> int:
+    """The type of a data set; 0 takes the id (P-CHAN-00829)."""
+    return parameters.type or parameters.id
+
+
+def is_known(parameters: KinematicParameters, types: Mapping[int, Builder]) -> bool:
+    """Whether `build` can make a kinematics of this type."""
+    return type_of(parameters) in (UNIVERSAL, *types)
+
+
+def build(
+    parameters: KinematicParameters,
+    axis_names: Sequence[str],
+    default_mode: int = 0,
+    types: Mapping[int, Builder] | None = None,
+) -> KinematicStep:
+    """The kinematics of a data set in a channel with these axes.
+
+    default_mode: P-CHAN-00112. types: builders of further types.
+    Raises KinematicsError for an unknown type, or with the first fault of the parameters.
+    """
+    type = type_of(parameters)
+    if types and type in types:
+        return types[type](parameters, axis_names, default_mode)
+    if type != UNIVERSAL:
+        known = ", ".join(str(t) for t in sorted({UNIVERSAL, *(types or ())}))
+        raise KinematicsError(
+            "N2001",
+            f"kinematics {parameters.id} of type {type} is not supported",
+            hint=f"known types: {known}",
+        )
+    return UniversalKinematics.from_parameters(parameters, axis_names, default_mode)
