@@ -27,6 +27,7 @@ LAYERS = (
     "motion",
     "explanation",
     "trajectory",
+    "inspection",
     "channel",
     "execution lists",
     "loading",

@@ -11,10 +11,12 @@ from typing import Any
 __version__ = "0.1.0"
 __all__ = [
     "Diagnostic",
+    "Inspection",
     "Machine",
     "Options",
     "Program",
     "Trajectory",
+    "inspect",
     "load_machine",
     "load_program",
     "render",
@@ -23,10 +25,12 @@ __all__ = [
 
 _HOME = {
     "Diagnostic": "ncscope.diagnostics",
+    "Inspection": "ncscope.inspection",
     "Machine": "ncscope.machine",
     "Options": "ncscope.execution",
     "Program": "ncscope.execution",
     "Trajectory": "ncscope.trajectory",
+    "inspect": "ncscope.inspection",
     "load_machine": "ncscope.lists",
     "load_program": "ncscope.loading",
     "render": "ncscope.diagnostics",

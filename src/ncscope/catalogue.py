@@ -222,5 +222,9 @@ CATALOGUE: dict[str, Entry] = {
     "N4001": Entry("error", "The program has more blocks than --max-blocks allows."),
     "N4002": Entry("error", "The program cannot be read."),
     "N4003": Entry("error", "A message file cannot be written."),
+    # What a run demands of the machine, our own
+    "N4101": Entry("warning", "An axis goes beyond its software limit."),
+    "N4102": Entry("warning", "A rotary axis swings while the tool passes its singular direction."),
+    "N4103": Entry("warning", "A computed rotary axis turns back over the end of its range."),
 }
 # fmt: on

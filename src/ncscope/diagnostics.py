@@ -88,11 +88,16 @@ class Source:
 
     def line_text(self, line: int) -> str:
         """The text of line `line` (from 1) without its end-of-line characters."""
+        start = self.line_start(line)
+        return self.part(start, self.end_of_line(start)).rstrip("\r\n")
+
+    def line_start(self, line: int) -> int:
+        """Offset of the first character of line `line` (from 1)."""
         piece = self._line_index.piece_of_line(line)
         start = piece * _PIECE
         for _ in range(line - 1 - self._line_index.before(piece)):
             start = self.end_of_line(start) + 1
-        return self.part(start, self.end_of_line(start)).rstrip("\r\n")
+        return start
 
     def _start_of_line(self, offset: int) -> int:
         while offset > 0:

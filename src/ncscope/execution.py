@@ -7,7 +7,7 @@ touches files: messages are values of the result.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from ncscope.channel.block import Step, execute
@@ -16,6 +16,7 @@ from ncscope.channel.flow import Load, Walker, open_warnings
 from ncscope.channel.start import start_state
 from ncscope.channel.state import State
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
+from ncscope.inspection import inspect
 from ncscope.language import BlockReader, tree
 from ncscope.language.structure import layout, needs_layout
 from ncscope.machine import Machine
@@ -165,6 +166,8 @@ class _Loop:
         self.state = start_state(machine, options.clamp)
         self.recorder, self.log = Recorder(source.name), _Log()
         self.messages: list[Message] = []
+        self.channels = [(0, self.state.axes)]
+        self.sources = {source.name: source}
         self.count = 0
         self.ended = False
         self.returned: Span | None = None
@@ -190,10 +193,12 @@ class _Loop:
         self.ended, self.returned = step.ended, step.returned
         if step.state.axes is not before.axes:
             self.scanner = None
+            self.channels.append((self.recorder.moves, step.state.axes))
 
     def meet(self, block: tree.Block, found: Iterable[Diagnostic]) -> bool:
         """Whether a block that was reached is to be executed; says what was found in it."""
         self.returned = None
+        self.sources.setdefault(block.span.source.name, block.span.source)
         self.add(found)
         return not (self.log.stop or _skipped(block, self.options)) and self._counted(block.span)
 
@@ -237,15 +242,16 @@ class _Loop:
         if not self.over:
             self.log.add(_no_end(self.source), self.options.strict)
         self.recorder.close()
-        return Trajectory(
+        done = Trajectory(
             tuple(self.recorder.stretches),
             tuple(self.recorder.axes) or self.state.axis_names,
-            tuple(self.log.items),
-            tuple(self.messages),
-            not self.log.stop,
-            self.recorder.places,
-            self.source.name,
+            messages=tuple(self.messages),
+            channels=tuple(self.channels),
+            _places=self.recorder.places,
+            _file=self.source.name,
         )
+        self.add(inspect(done).diagnostics(self.sources))
+        return replace(done, diagnostics=tuple(self.log.items), ok=not self.log.stop)
 
 
 def _skipped(block: tree.Block, options: Options) -> bool:

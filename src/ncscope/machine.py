@@ -29,7 +29,7 @@ class Axis:
 
     `number` is the logical axis number. `assumed`: no axis list said whether the axis is rotary.
     `modulo_range`: (low, high) in degrees for a modulo axis, else None.
-    `limits`: software limits (mm or degrees) in the axis system, None when not configured.
+    `limits`: software limits (mm or degrees) of the axis position, None when none are monitored.
     """
 
     name: str

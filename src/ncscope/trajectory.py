@@ -21,6 +21,7 @@ from ncscope.coordinates import Coordinates
 from ncscope.diagnostics import Diagnostic, render
 from ncscope.explanation import Explanation, Visit, Whereabouts, whereabouts
 from ncscope.frames import Array
+from ncscope.machine import Axis
 from ncscope.motion import Move
 
 NO_BLOCK = -1
@@ -69,6 +70,7 @@ class Trajectory:
 
     axes: every axis name that was in the channel, in order of appearance. messages: what the
     program wrote. diagnostics: in the order they arose. ok: the program ran to its end.
+    channels: the axes of the channel, each set with the row from which it counts.
     """
 
     stretches: tuple[Stretch, ...]
@@ -76,6 +78,7 @@ class Trajectory:
     diagnostics: tuple[Diagnostic, ...] = ()
     messages: tuple[Any, ...] = ()
     ok: bool = True
+    channels: tuple[tuple[int, tuple[Axis, ...]], ...] = ()
     _places: Mapping[int, Visit] = field(default_factory=dict, repr=False)
     _file: str = ""
 

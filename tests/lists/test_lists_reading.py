@@ -124,7 +124,8 @@ def test_axis_list_fields(tmp_path):
         sda="gruppe[0].achse[0].bezeichnung C\ngruppe[0].achse[0].log_achs_nr 7\n",
         default_achs_mds="kenngr.swe_pos 50000\n",
         achs1="kopf.achs_nr 7\nkenngr.achs_typ 0x0002\nkenngr.achs_mode 0x5\n"
-        "kenngr.swe_neg -10000\ngetriebe[0].moduloo 1800000\ngetriebe[0].modulou -1800000\n"
+        "kenngr.swe_neg -10000\nkenngr.swe_check 1\n"
+        "getriebe[0].moduloo 1800000\ngetriebe[0].modulou -1800000\n"
         "getriebe[0].pos_refpkt 25000\n",
         achs2="kopf.achs_nr 8\nkenngr.achs_typ 4\n",
     )
@@ -283,3 +284,22 @@ def test_no_bytes_make_reading_fail(entries, tail, kind):
     data = "".join(f"{key} {value}\n" for key, value in entries).encode() + tail
     lists = (ListFile(kind, ListDocument.from_bytes(data)),)
     check_loaded(assemble(lists, "any"))
+
+
+@pytest.mark.parametrize(
+    ("entries", "expected"),
+    [
+        ("", (-10.0, 350.0)),
+        ("kenngr.swe_check 0\n", None),
+        ("kenngr.achs_mode 4\n", None),
+        ("kenngr.achs_mode 4\nkenngr.swe_check 1\n", None),  # -10 is outside of 0 to 360
+        ("kenngr.achs_mode 4\nkenngr.swe_check 1\ngetriebe[0].modulou -200000\n", (-10.0, 350.0)),
+    ],
+)
+def test_software_limits_of_a_rotary_axis(tmp_path, entries, expected):
+    """P-AXIS-00177, -00178, -00705: modulo axes are monitored only where a list asks for it."""
+    text = "kopf.achs_nr 1\nkenngr.achs_typ ACHSTYP_ROTATOR\nkenngr.swe_neg -100000\n"
+    text += f"kenngr.swe_pos 3500000\n{entries}Ende\n"
+    write(tmp_path, achs1=text, sda="gruppe[0].achse[0].bezeichnung C\nEnde\n")
+    machine, _ = load_machine(tmp_path)
+    assert machine.axes[0].limits == expected

@@ -2,7 +2,7 @@
 
 Lengths 0.1 um and angles 0.0001 degrees in the lists, mm and degrees in `Axis`.
 Source: P-CHAN-00006, P-CHAN-00035, P-AXIS-00015, -00016, -00018, -00126, -00127, -00152, -00177,
--00178.
+-00178, -00705.
 """
 
 from __future__ import annotations
@@ -54,12 +54,13 @@ def axis_record(
     first = _value(last, "kopf.achs_nr", number)
     modulo = bool(int(_value(last, "kenngr.achs_mode", 1)) & MODULO_MODE)
     name = last.get("kopf.log_achs_name")
+    rotary, turns = kind == AXIS_TYPES["ACHSTYP_ROTATOR"], _modulo_range(last) if modulo else None
     axis = Axis(
         str(name.value) if name else f"axis {int(first)}",
         int(first),
-        rotary=kind == AXIS_TYPES["ACHSTYP_ROTATOR"],
-        modulo_range=_modulo_range(last) if modulo else None,
-        limits=_limits(last),
+        rotary=rotary,
+        modulo_range=turns,
+        limits=_limits(last, turns if rotary else None),
         reference=_value(last, "getriebe[0].pos_refpkt", 0) / UNITS,
     )
     return AxisRecord(axis, kind == SPINDLE_TYPE), found
@@ -128,12 +129,24 @@ def _modulo_range(last: Mapping[str, Reading]) -> tuple[float, float]:
     return (low / UNITS, high / UNITS) if low < high else (0.0, 360.0)
 
 
-def _limits(last: Mapping[str, Reading]) -> tuple[float, float] | None:
+def _limits(
+    last: Mapping[str, Reading], turns: tuple[float, float] | None
+) -> tuple[float, float] | None:
+    """The software limits that are monitored; None where none are.
+
+    turns: the range of a rotary modulo axis. Such an axis is monitored only where P-AXIS-00705
+    asks for it, and only with limits inside its range.
+    """
     if "kenngr.swe_neg" not in last and "kenngr.swe_pos" not in last:
         return None
-    low = _value(last, "kenngr.swe_neg", -DEFAULT_LIMIT)
-    high = _value(last, "kenngr.swe_pos", DEFAULT_LIMIT)
-    return low / UNITS, high / UNITS
+    low = _value(last, "kenngr.swe_neg", -DEFAULT_LIMIT) / UNITS
+    high = _value(last, "kenngr.swe_pos", DEFAULT_LIMIT) / UNITS
+    check = int(_value(last, "kenngr.swe_check", -1))
+    if check == 0:
+        return None
+    if turns is not None and (check != 1 or low < turns[0] or high > turns[1]):
+        return None
+    return low, high
 
 
 def _channel_axis(

@@ -1,0 +1,308 @@
+"""What a run demands of the machine: travel of every axis, its limits, the pole, turned-over axes.
+
+Enters: a `Trajectory`. Leaves: an `Inspection` with the numbers, and its warnings.
+Software limits hold for axis positions, never for the tool tip (P-AXIS-00177, P-AXIS-00178); they
+are compared at the ends of blocks. A warning does not end the run: what comes behind it is shown
+too, although the control would stop the axes there (P-AXIS-00554, P-CHAN-00147).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
+from ncscope.frames import Array
+from ncscope.kinematics.pole import Pole
+from ncscope.kinematics.universal import UniversalKinematics
+from ncscope.machine import Axis
+from ncscope.trajectory import NO_BLOCK, Stretch, Trajectory
+
+Rows = NDArray[np.int64]
+
+TOLERANCE = 1e-6
+"""mm or degrees that an axis may be beyond a limit: rounding, far below the control's 1e-4."""
+NEAR_POLE = 5.0
+"""Degrees from the singular direction inside which swings are looked for."""
+SMALLEST_SWING = 20.0
+"""Degrees that the first rotary axis turns, in one go, to be worth a warning."""
+SWING_RATIO = 10.0
+"""So many times more than the tool direction the axis turns in a swing."""
+SAME_DIRECTION = 1e-4
+"""Degrees below which the tool direction stays: turning the axis there was asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Travel:
+    """Where one axis went: mm or degrees, and the rows of the trajectory where it was there.
+
+    beyond: for each limit that was crossed, the rows beyond it.
+    """
+
+    axis: Axis
+    low: float
+    high: float
+    low_row: int
+    high_row: int
+    below: Rows
+    above: Rows
+
+
+@dataclass(frozen=True, slots=True)
+class Swing:
+    """The first rotary axis turns far while the tool passes its singular direction.
+
+    row, last: first and last move. distance: smallest angle to the singular direction.
+    swing: degrees that the axis turns, counted without its sense.
+    """
+
+    axis: str
+    row: int
+    last: int
+    distance: float
+    swing: float
+
+
+@dataclass(frozen=True, slots=True)
+class Wrap:
+    """A computed rotary axis jumps over the end of its range, (-180, 180] degrees, at a move."""
+
+    axis: Axis
+    row: int
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """The numbers behind the warnings of a run; rows count from 0 over the whole trajectory."""
+
+    result: Trajectory = field(repr=False)
+    travel: tuple[Travel, ...]
+    swings: tuple[Swing, ...]
+    wraps: tuple[Wrap, ...]
+
+    @cached_property
+    def pole_distance(self) -> Array:
+        """(moves,) degrees between the tool and its singular direction at the end of each block;
+        NaN without a kinematics that has one."""
+        parts = [np.full(len(s), np.nan) for s in self.result.stretches]
+        for s, out in zip(self.result.stretches, parts, strict=True):
+            pole = _pole(s)
+            if pole is not None:
+                out[:] = pole.distance(s.acs[:, pole.second])
+        return np.concatenate(parts) if parts else np.empty(0)
+
+    def diagnostics(self, sources: Mapping[str, Source] | None = None) -> tuple[Diagnostic, ...]:
+        """Warnings: one for each limit of an axis and for each kind of event, with its number.
+
+        sources: the texts by file name, to show the line of the first block.
+        """
+        found = [*self._limit_warnings(), *self._swing_warnings(), *self._wrap_warnings()]
+        found.sort(key=lambda item: item[0])
+        return tuple(
+            diagnostic(id, _span(self.result, row, sources or {}), message, hint)
+            for row, id, message, hint in found
+        )
+
+    def _limit_warnings(self) -> Iterator[tuple[int, str, str, str]]:
+        for travel in self.travel:
+            axis, limits = travel.axis, travel.axis.limits
+            if limits is None:
+                continue
+            for rows, limit, worst, key in (
+                (travel.below, limits[0], travel.low, "kenngr.swe_neg (P-AXIS-00177)"),
+                (travel.above, limits[1], travel.high, "kenngr.swe_pos (P-AXIS-00178)"),
+            ):
+                if len(rows) == 0:
+                    continue
+                unit = "degrees" if axis.rotary else "mm"
+                at = self._value(axis.name, int(rows[0]))
+                message = (
+                    f"axis {axis.name} goes to {_number(at)} {unit}, beyond its software limit "
+                    f"{_number(limit)}"
+                )
+                if len(rows) > 1:
+                    message += f"; {len(rows)} blocks are beyond it, at most {_number(worst)}"
+                hint = f"the control stops the axis here; the limit is {key}"
+                yield int(rows[0]), "N4101", message, hint
+
+    def _swing_warnings(self) -> Iterator[tuple[int, str, str, str]]:
+        if not self.swings:
+            return
+        first, count = self.swings[0], len(self.swings)
+        widest = max(self.swings, key=lambda s: s.swing)
+        message = (
+            f"axis {first.axis} swings by {first.swing:.1f} degrees while the tool passes the "
+            f"singular direction at {first.distance:.4f} degrees"
+        )
+        if count > 1:
+            message += f"; {count} swings, the widest by {widest.swing:.1f} degrees"
+        hint = "the feed drops here; tilt the part or the path away from the pole"
+        yield first.row, "N4102", message, hint
+
+    def _wrap_warnings(self) -> Iterator[tuple[int, str, str, str]]:
+        wraps: dict[str, list[Wrap]] = {}
+        for wrap in self.wraps:
+            if wrap.axis.modulo_range is None:
+                wraps.setdefault(wrap.axis.name, []).append(wrap)
+        for name, items in wraps.items():
+            first = items[0]
+            message = (
+                f"axis {name} turns back from {_number(first.before)} to {_number(first.after)} "
+                "degrees: computed angles are between -180 and 180"
+            )
+            if len(items) > 1:
+                message += f"; this happens {len(items)} times"
+            hint = "a modulo axis (P-AXIS-00015) would take the short way"
+            yield first.row, "N4103", message, hint
+
+    def _value(self, axis: str, row: int) -> float:
+        for first, s in _stretches(self.result):
+            if row < first + len(s):
+                return float(s.acs[row - first, s.axes.index(axis)])
+        raise IndexError(row)
+
+
+def inspect(result: Trajectory) -> Inspection:
+    """Travel, limits, swings at the pole and turned-over axes of a run."""
+    travel: dict[Axis, Travel] = {}
+    swings: list[Swing] = []
+    wraps: list[Wrap] = []
+    for row, s in _stretches(result):
+        axes = _axes_at(result, row, s)
+        for column, axis in enumerate(axes):
+            seen = _travel(axis, s.acs[:, column], row)
+            travel[axis] = _joined(travel[axis], seen) if axis in travel else seen
+        pole = _pole(s)
+        if pole is not None:
+            swings.extend(_swings(pole, s, row))
+        wraps.extend(_wraps(s, axes, row))
+    return Inspection(result, tuple(travel.values()), tuple(swings), tuple(wraps))
+
+
+def place(result: Trajectory, row: int) -> tuple[str, int, int | None]:
+    """File, line and block number (None without) of a row of the trajectory."""
+    for first, s in _stretches(result):
+        if row < first + len(s):
+            block = int(s.block[row - first])
+            return s.file, int(s.line[row - first]), None if block == NO_BLOCK else block
+    raise IndexError(row)
+
+
+# --- steps -------------------------------------------------------------------------------------
+
+
+def _stretches(result: Trajectory) -> Iterator[tuple[int, Stretch]]:
+    """Each stretch that has moves, with the row of its first one."""
+    row = 0
+    for s in result.stretches:
+        if len(s):
+            yield row, s
+        row += len(s)
+
+
+def _axes_at(result: Trajectory, row: int, s: Stretch) -> tuple[Axis, ...]:
+    """The axes of the channel in a stretch that begins at a row."""
+    found = [axes for first, axes in result.channels if first <= row]
+    if found and len(found[-1]) == len(s.axes):
+        return found[-1]
+    return tuple(Axis(name, index + 1) for index, name in enumerate(s.axes))
+
+
+def _travel(axis: Axis, values: Array, row: int) -> Travel:
+    lowest, highest = int(values.argmin()), int(values.argmax())
+    low, high = float(values[lowest]), float(values[highest])
+    below = above = np.empty(0, dtype=np.int64)
+    if axis.limits is not None:
+        if low < axis.limits[0] - TOLERANCE:
+            below = np.flatnonzero(values < axis.limits[0] - TOLERANCE) + row
+        if high > axis.limits[1] + TOLERANCE:
+            above = np.flatnonzero(values > axis.limits[1] + TOLERANCE) + row
+    return Travel(axis, low, high, row + lowest, row + highest, below, above)
+
+
+def _joined(a: Travel, b: Travel) -> Travel:
+    low, high = (a if a.low <= b.low else b), (a if a.high >= b.high else b)
+    below = np.concatenate([a.below, b.below]) if len(b.below) else a.below
+    above = np.concatenate([a.above, b.above]) if len(b.above) else a.above
+    return Travel(a.axis, low.low, high.high, low.low_row, high.high_row, below, above)
+
+
+def _pole(s: Stretch) -> Pole | None:
+    active = s.coordinates.kinematics
+    if active is None or not isinstance(active.model, UniversalKinematics):
+        return None
+    return Pole.of(active.model)
+
+
+def _swings(pole: Pole, s: Stretch, row: int) -> list[Swing]:
+    """Runs of moves in which the first rotary axis turns far and the tool direction does not."""
+    turn = np.diff(s.acs[:, pole.first], prepend=s.start[pole.first])
+    if not pole.model.rtcp:
+        turn = _short_way(turn)
+    near = pole.distance(np.append(s.start[pole.second], s.acs[:, pole.second])) < NEAR_POLE
+    suspect = near[1:] | near[:-1] | (np.abs(turn) >= SMALLEST_SWING)
+    moves = np.flatnonzero(suspect & (turn != 0.0))
+    if len(moves) == 0:
+        return []
+    start = np.where(moves[:, None] > 0, s.acs[moves - 1], s.start)
+    end = s.acs[moves]
+    distance = pole.closest(start, end)
+    change = _angle(pole.model.forward(start)[1], pole.model.forward(end)[1])
+    turn = np.abs(turn[moves])
+    bad = (distance < NEAR_POLE) & (turn >= SWING_RATIO * change) & (change > SAME_DIRECTION)
+    moves, distance, turn = moves[bad], distance[bad], turn[bad]
+    if len(moves) == 0:
+        return []
+    runs = np.append(0, np.flatnonzero(np.diff(moves) > 1) + 1)
+    sums = np.add.reduceat(turn, runs)
+    least = np.minimum.reduceat(distance, runs)
+    ends = np.append(runs[1:], len(moves)) - 1
+    name = s.axes[pole.first]
+    return [
+        Swing(name, row + int(moves[a]), row + int(moves[b]), float(d), float(t))
+        for a, b, d, t in zip(runs, ends, least, sums, strict=True)
+        if t >= SMALLEST_SWING
+    ]
+
+
+def _wraps(s: Stretch, axes: tuple[Axis, ...], row: int) -> list[Wrap]:
+    """Jumps of angles that a complete transformation computed; programmed angles are as asked."""
+    active = s.coordinates.kinematics
+    if active is None or not isinstance(active.model, UniversalKinematics) or active.model.rtcp:
+        return []
+    found = []
+    for column in active.model.chain.rotary:
+        values = np.append(s.start[column], s.acs[:, column])
+        for i in np.flatnonzero(np.abs(np.diff(values)) > 180.0):
+            found.append(Wrap(axes[column], row + int(i), float(values[i]), float(values[i + 1])))
+    return sorted(found, key=lambda wrap: wrap.row)
+
+
+def _short_way(turn: Array) -> Array:
+    return turn - 360.0 * np.round(turn / 360.0)
+
+
+def _angle(a: Array, b: Array) -> Array:
+    """Degrees (m,) between unit vectors (m, 3)."""
+    sine = np.linalg.norm(np.cross(a, b), axis=1)
+    return np.rad2deg(np.arctan2(sine, np.einsum("ij,ij->i", a, b)))
+
+
+def _number(value: float) -> str:
+    return f"{value + 0.0:.4f}".rstrip("0").rstrip(".")
+
+
+def _span(result: Trajectory, row: int, sources: Mapping[str, Source]) -> Span | None:
+    file, line, _ = place(result, row)
+    source = sources.get(file)
+    if source is None:
+        return None
+    start, text = source.line_start(line), source.line_text(line)
+    first = len(text) - len(text.lstrip())
+    return Span(source, start + first, start + max(len(text.rstrip()), first + 1))

@@ -1,0 +1,96 @@
+"""How near a machine with two rotary axes is to its singular tool direction.
+
+Enters: axis values (m, n), degrees in the rotary columns. Leaves: angles in degrees.
+The tool is singular where it lies along the rotary axis nearest to the workpiece, in either sense:
+that axis then turns without changing the tool direction, and a small change of the direction
+beside it needs a large turn. Source: FCT-C27 section 7.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ncscope.kinematics.orientation import OrientationSolver
+from ncscope.kinematics.universal import UniversalKinematics
+
+Array = NDArray[np.float64]
+
+_SMALLEST_NORMAL = 1e-12
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pole:
+    """The singular direction of one machine.
+
+    first, second: channel columns of the two rotary axes, the one nearest to the workpiece first.
+    axis (3,): unit direction of the first one. between, lean: its angle to the second axis, and
+    the angle of that to the tool, radians inside. turning_point: position of the second axis in
+    degrees where the tool is closest to the first one.
+    """
+
+    model: UniversalKinematics
+    first: int
+    second: int
+    axis: Array
+    between_rad: float
+    lean_rad: float
+    turning_point: float
+
+    @classmethod
+    def of(cls, model: UniversalKinematics) -> Pole | None:
+        """The pole of a kinematics; None when it does not have two rotary axes that tilt."""
+        rotary = model.chain.rotary
+        if len(rotary) != 2:
+            return None
+        directions = model.chain.directions[list(rotary)]
+        solver = OrientationSolver.from_axes(directions, model.chain.zero_orientation)
+        between, lean, _, turning_point, free = (float(v) for v in solver.angles)
+        if free:
+            return None
+        return cls(model, *rotary, directions[0], between, lean, turning_point)
+
+    def distance(self, second: Array) -> Array:
+        """Angle (...) between the tool and the first axis, 0 to 90 degrees, either sense.
+
+        second: (...) positions of the second rotary axis, degrees. Good to 1e-6 degrees at the
+        pole itself, where the cosine has lost half of its digits.
+        """
+        turn = np.deg2rad(second - self.turning_point)
+        middle = math.cos(self.between_rad) * math.cos(self.lean_rad)
+        cosine = middle + math.sin(self.between_rad) * math.sin(self.lean_rad) * np.cos(turn)
+        return np.rad2deg(np.arccos(np.minimum(np.abs(cosine), 1.0)))
+
+    def closest(self, start: Array, end: Array) -> Array:
+        """Smallest distance (m,) on the way between axis values start and end, each (m, n).
+
+        With RTCP the rotary axes move linearly. With the complete transformation the tool
+        direction takes the shortest way.
+        """
+        a, b = start[:, self.second], end[:, self.second]
+        near = np.minimum(self.distance(a), self.distance(b))
+        if not self.model.rtcp:
+            return np.minimum(near, self._closest_on_arc(start, end))
+        for turning in (self.turning_point, self.turning_point + 180.0):
+            passed = np.floor((a - turning) / 360.0) != np.floor((b - turning) / 360.0)
+            there = self.distance(np.array(turning))
+            near = np.where(passed, np.minimum(near, there), near)
+        return near
+
+    def _closest_on_arc(self, start: Array, end: Array) -> Array:
+        a, b = self.model.forward(start)[1], self.model.forward(end)[1]
+        normal = np.cross(a, b)
+        length = np.linalg.norm(normal, axis=1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            height = (normal @ self.axis) / length
+            foot = self.axis - (height / length)[:, None] * normal
+        inside = np.zeros(len(a), dtype=bool)
+        for sense in (1.0, -1.0):
+            behind = np.einsum("ij,ij->i", np.cross(a, sense * foot), normal) >= 0
+            before = np.einsum("ij,ij->i", np.cross(sense * foot, b), normal) >= 0
+            inside |= behind & before
+        inside &= length > _SMALLEST_NORMAL
+        return np.where(inside, np.rad2deg(np.arcsin(np.minimum(np.abs(height), 1.0))), np.inf)

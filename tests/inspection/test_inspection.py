@@ -1,0 +1,216 @@
+"""Travel, software limits, swings at the pole and turned-over axes against hand calculations."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import ncscope
+from ncscope.coordinates import ActiveKinematics, Coordinates
+from ncscope.execution import Options
+from ncscope.kinematics.parameters import KinematicParameters
+from ncscope.kinematics.pole import Pole
+from ncscope.kinematics.universal import UniversalKinematics
+from ncscope.machine import Axis, Machine
+from ncscope.trajectory import Stretch, Trajectory
+
+AXES = (Axis("X", 1), Axis("Y", 2), Axis("Z", 3), Axis("C", 4, True), Axis("A", 5, True))
+HEAD = KinematicParameters.from_fields(
+    {
+        "zero_orientation": [0, 0, 1],
+        "number_of_axes": 5,
+        "axis": [
+            {"type": 1, "orientation": [1, 0, 0]},
+            {"type": 1, "orientation": [0, 1, 0]},
+            {"type": 1, "orientation": [0, 0, 1]},
+            {"type": 2, "orientation": [0, 0, 1]},
+            {"type": 2, "orientation": [1, 0, 0]},
+        ],
+        "chain": [0, 1, 2, 3, 4],
+        "programming_mode": 17,
+        "rtcp": 1,
+    }
+)
+"""A head that turns about Z (C) and tilts about X (A): tool at angle |A| from the C axis."""
+MACHINE = Machine("head", AXES, kinematic_parameters={91: HEAD})
+
+
+def limited(**limits: tuple[float, float]) -> Machine:
+    return replace(MACHINE, axes=tuple(replace(a, limits=limits.get(a.name)) for a in AXES))
+
+
+def warnings(result):
+    return [(d.id, d.line) for d in result.diagnostics if d.severity == "warning"]
+
+
+def test_limits_hold_for_axes_and_not_for_the_tip():
+    # Tool 100 long and tilted by 90 degrees: the axis stands 100 beside the tip in Y (d = -Y).
+    text = (
+        "V.G.WZ_AKT.L = 100\n#TRAFO [91]\nG00 X0 Y0 Z0 C0 A0\nG00 A90\nG00 Y60\n#TRAFO OFF\nM30\n"
+    )
+    result = ncscope.run(limited(Y=(-50.0, 50.0)), text)
+    assert result.ok
+    assert result.acs[:, 1] == pytest.approx([0, -100, -40], abs=1e-9)
+    assert warnings(result) == [("N4101", 4)]
+    y = next(t for t in ncscope.inspect(result).travel if t.axis.name == "Y")
+    assert (y.low, y.high, y.low_row, y.high_row) == pytest.approx((-100, 0, 1, 0))
+    assert y.below.tolist() == [1] and y.above.tolist() == []
+
+
+def test_an_axis_may_stand_on_its_limit():
+    result = ncscope.run(limited(X=(0.0, 10.0)), "G00 X10\nX0\nM30\n")
+    assert warnings(result) == []
+
+
+def test_one_warning_for_each_limit_with_the_number_of_blocks():
+    text = "N10 G00 X11\nN20 X5\nN30 X12\nN40 X-3\nN50 X1\nM30\n"
+    result = ncscope.run(limited(X=(0.0, 10.0)), text)
+    first, second = (d for d in result.diagnostics if d.id == "N4101")
+    assert (first.line, first.span.text) == (1, "N10 G00 X11")
+    assert "goes to 11 mm" in first.message and "limit 10" in first.message
+    assert "2 blocks are beyond it, at most 12" in first.message
+    assert (second.line, "2 blocks" in second.message) == (4, False)
+
+
+@pytest.mark.parametrize("bulk", [True, False])
+def test_both_lanes_find_the_same(bulk):
+    text = "#TRAFO [91]\nG00 C0 A5\nG01 F100 C180 A0.5\nX20\n#TRAFO OFF\nM30\n"
+    result = ncscope.run(limited(X=(0.0, 10.0)), text, Options(bulk=bulk))
+    assert warnings(result) == [("N4102", 3), ("N4101", 4)]
+
+
+def test_strict_counts_a_limit_as_an_error():
+    result = ncscope.run(limited(X=(0.0, 10.0)), "G00 X11\nM30\n", Options(strict=True))
+    assert not result.ok and len(result) == 1
+
+
+def test_limits_go_with_the_axis_through_an_axis_exchange():
+    far = Axis("Q", 9, limits=(-1.0, 1.0))
+    machine = replace(MACHINE, known_axes={9: far})
+    text = "G00 X50\n#SET AX [X,9,0][Y,2,1][Z,3,2]\nX5\nM30\n"
+    assert warnings(ncscope.run(machine, text)) == [("N4101", 3)]
+
+
+def test_limit_in_a_subprogram_is_shown_there():
+    sub = ncscope.diagnostics.Source("sub.nc", "%sub\nG00 X11\nM17\n")
+    result = ncscope.run(limited(X=(0.0, 10.0)), "L sub.nc\nM30\n", Options(load=lambda name: sub))
+    (found,) = (d for d in result.diagnostics if d.id == "N4101")
+    assert (found.file, found.line) == ("sub.nc", 2)
+
+
+# --- the pole ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("a", "expected"), [(0, 0), (5, 5), (-30, 30), (90, 90), (150, 30), (180, 0), (360, 0)]
+)
+def test_pole_distance_of_a_head_is_its_tilt(a, expected):
+    pole = Pole.of(UniversalKinematics.from_parameters(HEAD, "XYZCA"))
+    assert pole is not None
+    assert pole.distance(np.array(float(a))) == pytest.approx(expected, abs=2e-6)
+
+
+def test_pole_distance_is_the_angle_to_the_first_axis_on_skew_machines():
+    rng = np.random.default_rng(7)
+    for _ in range(20):
+        fields = {f"{k}": v for k, v in {"number_of_axes": 5, "rtcp": 1}.items()}
+        turning = rng.normal(size=(2, 3))
+        linear = [{"type": 1, "orientation": list(row)} for row in np.eye(3)]
+        rotary = [{"type": 2, "orientation": list(row)} for row in turning]
+        fields |= {"axis": linear + rotary, "chain": [4, 0, 1, 2, 3]}
+        fields["zero_orientation"] = list(rng.normal(size=3))
+        model = UniversalKinematics.from_parameters(
+            KinematicParameters.from_fields(fields), "XYZBC"
+        )
+        axes = np.column_stack([np.zeros((9, 3)), rng.uniform(-180, 180, (9, 2))])
+        # chain 4 first: that axis is nearest to the workpiece; turning it does not move it.
+        first = turning[1] / np.linalg.norm(turning[1])
+        expected = np.degrees(np.arccos(np.abs(model.forward(axes)[1] @ first)))
+        pole = Pole.of(model)
+        assert (pole.first, pole.second) == (4, 3)
+        assert pole.distance(axes[:, 3]) == pytest.approx(expected, abs=1e-6)
+
+
+def test_swing_over_several_blocks_is_one_event():
+    # At A = 0.5 a turn of C by 60 degrees changes the direction by about 0.5 degrees.
+    text = "#TRAFO [91]\nG00 C0 A0.5\nG01 F100 C60\nC120\nC180\nA20\n#TRAFO OFF\nM30\n"
+    result = ncscope.run(MACHINE, text)
+    (swing,) = ncscope.inspect(result).swings
+    assert (swing.axis, swing.row, swing.last) == ("C", 1, 3)
+    assert (swing.distance, swing.swing) == pytest.approx((0.5, 180), abs=1e-6)
+    assert warnings(result) == [("N4102", 3)]
+
+
+@pytest.mark.parametrize(
+    "blocks",
+    [
+        "G00 C90 A0\nG00 C0",  # turning on the pole itself: asked for
+        "G00 C0 A0\nG01 F100 C30 A20",  # leaving the pole
+        "G00 C0 A5\nG01 F100 A-5",  # through the pole without turning
+        "G00 C0 A30\nG01 F100 C350",  # far from the pole
+    ],
+)
+def test_no_swing(blocks):
+    result = ncscope.run(MACHINE, f"#TRAFO [91]\n{blocks}\n#TRAFO OFF\nM30\n")
+    assert warnings(result) == []
+
+
+def test_shortest_distance_on_the_way():
+    model = UniversalKinematics.from_parameters(HEAD, "XYZCA")
+    pole = Pole.of(model)
+    start = np.array([[0, 0, 0, 0, 30], [0, 0, 0, 0, 170], [0, 0, 0, 0, 4.0]])
+    end = np.array([[0, 0, 0, 0, -10], [0, 0, 0, 0, 200], [0, 0, 0, 0, 40.0]])
+    assert pole.closest(start, end) == pytest.approx([0, 0, 4], abs=2e-6)
+
+
+def test_complete_transformation_passes_the_pole_on_the_shortest_way():
+    # Same tilt on both sides, C turned by 180: the direction goes straight through the pole.
+    # C turned by 90 at a tilt of 45: the middle of the arc is arctan(tan 45 cos 45) away.
+    model = UniversalKinematics.from_parameters(HEAD.with_value(56, 0), "XYZCA")
+    start = np.array([[0, 0, 0, 0, 5.0], [0, 0, 0, 0, 45.0]])
+    end = np.array([[0, 0, 0, 180, 5.0], [0, 0, 0, 90, 45.0]])
+    middle = np.degrees(np.arctan(np.cos(np.radians(45))))
+    assert Pole.of(model).closest(start, end) == pytest.approx([0, middle], abs=1e-6)
+
+
+def complete_run(c: list[float], axis: Axis) -> Trajectory:
+    """A trajectory under the complete transformation with these positions of C, A at 40."""
+    model = UniversalKinematics.from_parameters(HEAD.with_value(56, 0), "XYZCA")
+    acs = np.array([[0, 0, 0, value, 40.0] for value in c])
+    n = len(c) - 1
+    stretch = Stretch(
+        Coordinates(5, kinematics=ActiveKinematics(model, 1)), tuple("XYZCA"), "main.nc",
+        np.arange(1, n + 1), np.full(n, -1), np.ones(n, np.int8), np.full(n, 100.0),
+        acs[1:], acs[1:], acs[0],
+    )  # fmt: skip
+    axes = (*AXES[:3], axis, AXES[4])
+    return Trajectory((stretch,), tuple("XYZCA"), channels=((0, axes),))
+
+
+def test_a_computed_angle_that_turns_over():
+    # From 170 on to 190, which is shown as -170; 10 to -10 is a short way.
+    run = complete_run([170, -170, 10, -10, 175, -175], AXES[3])
+    found = ncscope.inspect(run)
+    assert [(w.row, w.before, w.after) for w in found.wraps] == [
+        (0, 170, -170), (3, -10, 175), (4, 175, -175)
+    ]  # fmt: skip
+    (warning,) = found.diagnostics()
+    assert warning.id == "N4103" and "3 times" in warning.message
+
+
+def test_a_modulo_axis_takes_the_short_way():
+    axis = replace(AXES[3], modulo_range=(0.0, 360.0))
+    found = ncscope.inspect(complete_run([170, -170], axis))
+    assert len(found.wraps) == 1 and found.diagnostics() == ()
+
+
+def test_machines_without_a_pole():
+    text = "G00 X1 A90\nM30\n"
+    found = ncscope.inspect(ncscope.run(MACHINE, text))
+    assert np.isnan(found.pole_distance).all() and found.swings == ()
+    assert Pole.of(UniversalKinematics.from_parameters(HEAD.with_value(6, 4), "XYZCA")) is None
+
+
+def test_a_run_without_moves():
+    found = ncscope.inspect(ncscope.run(MACHINE, "M30\n"))
+    assert (found.travel, found.swings, found.wraps, len(found.pole_distance)) == ((), (), (), 0)
