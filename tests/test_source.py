@@ -47,7 +47,7 @@ def test_a_mapped_file_runs_like_a_read_one(tmp_path, monkeypatch):
     path = tmp_path / "long.nc"
     path.write_text("".join(f"N{i} G1 X{i / 10} Y{-i} F100\n" for i in range(1, 5000)) + "M30\n")
     read = run(Machine(), load_program(path), Options())
-    monkeypatch.setattr("ncscope.loading.MAPPED_FROM", 1)
+    monkeypatch.setattr("ncscope.loading.programs.MAPPED_FROM", 1)
     program = load_program(path)
     assert isinstance(program.source.content, np.memmap)
     mapped = run(Machine(), program, Options())

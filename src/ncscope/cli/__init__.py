@@ -14,6 +14,7 @@ import typer
 from ncscope import __version__
 from ncscope.cli.check import check_command
 from ncscope.cli.explain import explain_command
+from ncscope.cli.kin import kin_app
 from ncscope.cli.run import run_command
 from ncscope.cli.where import where_command
 
@@ -27,6 +28,7 @@ app.command("run")(run_command)
 app.command("explain")(explain_command)
 app.command("where")(where_command)
 app.command("check")(check_command)
+app.add_typer(kin_app, name="kin")
 
 
 def _version(wanted: bool) -> None:

@@ -1,0 +1,198 @@
+"""`ncscope kin`: axis values to tool poses and back through the kinematics of a machine."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ncscope.cli.kinematics import chosen_kinematics
+from ncscope.cli.options import MachineOption
+from ncscope.cli.pose_input import near_values, poses_file, word_row
+from ncscope.cli.screen import console, fail
+from ncscope.cli.words import WordsCommand, read_words
+
+if TYPE_CHECKING:
+    from ncscope.frames import Array
+    from ncscope.kinematics import UniversalKinematics
+    from ncscope.kinematics.poses import Poses
+
+kin_app = typer.Typer(
+    no_args_is_help=True, help="Axis values and tool poses through a machine's kinematics."
+)
+
+
+class KinFormat(StrEnum):
+    """How poses are written."""
+
+    TABLE = "table"
+    JSONL = "jsonl"
+    CSV = "csv"
+
+
+Words = Annotated[list[str] | None, typer.Argument(metavar="[X=.. Y=..]", show_default=False)]
+IdOption = Annotated[
+    int | None, typer.Option("--id", help="Kinematic id; needed where there are several.")
+]
+LengthOption = Annotated[float, typer.Option("--tool-length", help="Tool length, mm.")]
+PosesOption = Annotated[
+    Path | None, typer.Option("--poses", help="CSV or Parquet file with a column for each axis.")
+]
+FormatOption = Annotated[KinFormat | None, typer.Option("--format", help="table, jsonl or csv.")]
+OutOption = Annotated[Path | None, typer.Option("--out", help="File: .csv, .jsonl or .parquet.")]
+NearOption = Annotated[
+    list[str] | None,
+    typer.Option("--near", metavar="A=.. C=..", help="Axis values nearby; they choose the pose."),
+]
+
+
+@kin_app.command("forward", cls=WordsCommand)
+def forward_command(
+    words: Words = None,
+    axes: Annotated[
+        list[str] | None, typer.Option("--axes", metavar="X=.. Y=..", help="Axis values.")
+    ] = None,
+    poses: PosesOption = None,
+    machine: MachineOption = None,
+    id: IdOption = None,
+    tool_length: LengthOption = 0.0,
+    format: FormatOption = None,
+    out: OutOption = None,
+) -> None:
+    """Where the tool is for given axis values (mm, degrees)."""
+    from ncscope.kinematics.poses import poses_of_axes
+
+    shape = _format(format, out, poses)
+    kin = chosen_kinematics(machine, id)
+    given = [*(words or []), *(axes or [])]
+    if poses is not None:
+        _one_source(bool(given))
+        rows = poses_file(poses).rows(kin.axis_names, "acs_")
+    else:
+        rows = word_row(given, kin.axis_names, "--axes")
+    _write(shape, out, kin, poses_of_axes(kin, rows, tool_length), tool_length)
+
+
+@kin_app.command("inverse", cls=WordsCommand)
+def inverse_command(
+    words: Words = None,
+    program: Annotated[
+        list[str] | None, typer.Option("--program", metavar="X=.. C=..", help="Programmed words.")
+    ] = None,
+    tip: Annotated[
+        list[str] | None, typer.Option("--tip", metavar="X=.. Y=.. Z=..", help="Tool tip.")
+    ] = None,
+    direction: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option("--direction", metavar="I J K", help="Tool direction, from tip to flange."),
+    ] = None,
+    poses: PosesOption = None,
+    near: NearOption = None,
+    both: Annotated[bool, typer.Option("--both", help="Both poses of the rotary axes.")] = False,
+    machine: MachineOption = None,
+    id: IdOption = None,
+    tool_length: LengthOption = 0.0,
+    format: FormatOption = None,
+    out: OutOption = None,
+) -> None:
+    """Where the axes go for programmed words, or for a tool tip and direction (mm, degrees)."""
+    from ncscope.kinematics import KinematicsError
+    from ncscope.kinematics.poses import poses_of_program, poses_of_tool
+
+    shape = _format(format, out, poses)
+    kin = chosen_kinematics(machine, id)
+    given = [*(words or []), *(program or [])]
+    start = near_values(near, kin.axis_names)
+    by_tool = tip is not None or direction is not None
+    _one_source(sum((bool(given), by_tool, poses is not None)) > 1)
+    table = None if poses is None else poses_file(poses)
+    try:
+        if by_tool or (table is not None and table.has_tool(kin.axis_names)):
+            points, vectors = table.tool() if table else _tool(tip, direction)
+            found = poses_of_tool(kin, points, vectors, tool_length, start, both)
+        else:
+            names = kin.axis_names
+            rows = table.rows(names, "pcs_") if table else word_row(given, names, "--program")
+            found = poses_of_program(kin, rows, tool_length, start, both)
+    except KinematicsError as error:
+        fail(f"{error.id}: {error.message}", code=1)
+    _write(shape, out, kin, found, tool_length)
+
+
+def _tool(
+    tip: list[str] | None, direction: tuple[float, float, float] | None
+) -> tuple[Array, Array]:
+    """Tip (1, 3) and direction (1, 3) of the options."""
+    import numpy as np
+
+    if tip is None or direction is None:
+        fail("--tip and --direction belong together: --tip X=1 Y=2 Z=3 --direction 0 0 1")
+    named = read_words(tip, "XYZ", "--tip")
+    if len(named) < 3:
+        fail("--tip: write all of X, Y and Z")
+    if not np.isfinite(direction).all() or not any(direction):
+        fail("--direction: write a vector other than 0 0 0")
+    return np.array([[named[c] for c in "XYZ"]]), np.array([direction])
+
+
+def _one_source(several: bool) -> None:
+    if several:
+        fail("give one of words, --tip with --direction, and --poses")
+
+
+def _format(format: KinFormat | None, out: Path | None, poses: Path | None) -> str:
+    """The form of the output: that of --format, else of the file's name."""
+    if out is None:
+        return str(format or KinFormat.TABLE)
+    if poses is not None and out.exists() and poses.exists() and out.samefile(poses):
+        fail(f"--out {out} is the table that is read")
+    shape = str(format) if format else out.suffix.lower().removeprefix(".")
+    if shape not in ("csv", "jsonl", "parquet"):
+        fail(f"--out {out}: name it .csv, .jsonl or .parquet, or give --format csv or jsonl")
+    return shape
+
+
+def _write(
+    shape: str, out: Path | None, kin: UniversalKinematics, found: Poses, tool_length: float
+) -> None:
+    from ncscope.kinematics import explain_status
+    from ncscope.views import poses as view
+
+    def explain(status: int) -> tuple[str, str]:
+        return explain_status(kin, status)
+
+    failed = int((found.status != 0).sum())
+    if shape == "table":
+        terminal = console()
+        kind = "RTCP" if kin.rtcp else "complete transformation"
+        terminal.print(
+            f"kinematics {kin.id}, {kind}, mode {kin.mode}, tool length {tool_length:g} mm"
+        )
+        terminal.print(view.poses_table(found, explain))
+    else:
+        _write_file(shape, out, found, explain)
+    if failed and (shape != "jsonl" or out is not None):
+        typer.echo(f"{failed} of {len(found)} poses have no solution", err=True)
+    raise typer.Exit(1 if failed else 0)
+
+
+def _write_file(shape: str, out: Path | None, found: Poses, explain) -> None:
+    from ncscope.views import poses as view
+
+    writers = {"csv": view.write_poses_csv, "jsonl": view.write_poses_jsonl}
+    if out is None:
+        writers[shape](sys.stdout, found, explain)
+        return
+    try:
+        if shape == "parquet":
+            view.write_poses_parquet(out, found, explain)
+        else:
+            with out.open("w", encoding="utf-8", newline="") as stream:
+                writers[shape](stream, found, explain)
+    except ImportError:
+        fail("Parquet needs pyarrow: pip install 'ncscope[table]'")
+    except OSError as error:
+        fail(f"cannot write {out}: {error.strerror}")

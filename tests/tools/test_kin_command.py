@@ -1,0 +1,181 @@
+"""`ncscope kin forward` and `inverse` as a user types them, and the tables they read."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from ncscope.cli import app
+
+MACHINES = Path(__file__).parents[2] / "examples" / "machines"
+HEAD = MACHINES / "ca_head"
+AXIS_A = (0.0, 0.4, 25.0)
+
+
+@pytest.fixture(autouse=True)
+def in_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def call(*arguments: str | Path) -> Result:
+    result = CliRunner().invoke(app, ["kin", *(str(a) for a in arguments)])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+def rows(result: Result) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(result.stdout)))
+
+
+def head_tip(x: float, y: float, z: float, c: float, a: float, length: float) -> list[float]:
+    """The CA head of the example lists by its textbook equation, mm.
+
+    tip = q + c + Rz(C) [Rx(A) (zero position - length * Z - a) + a - c], zero position
+    (1.2, -0.32, 0.05), C through c = (0.08, 0.12, 0), A through a = AXIS_A.
+    """
+    c, a = math.radians(c), math.radians(a)
+    px, py, pz = 1.2 - AXIS_A[0], -0.32 - AXIS_A[1], 0.05 - length - AXIS_A[2]
+    py, pz = py * math.cos(a) - pz * math.sin(a), py * math.sin(a) + pz * math.cos(a)
+    px, py, pz = px + AXIS_A[0] - 0.08, py + AXIS_A[1] - 0.12, pz + AXIS_A[2]
+    px, py = px * math.cos(c) - py * math.sin(c), px * math.sin(c) + py * math.cos(c)
+    return [x + px + 0.08, y + py + 0.12, z + pz]
+
+
+def test_forward_of_words_is_the_textbook_equation() -> None:
+    result = call(
+        "forward", "--axes", "X=1", "Y=-2", "C=30", "A=-20.5",
+        "-m", HEAD, "--tool-length", "99", "--format", "jsonl",
+    )  # fmt: skip
+    record = json.loads(result.stdout)
+    assert list(record["mcs"].values()) == pytest.approx(head_tip(1, -2, 0, 30, -20.5, 99))
+    assert record["pose"] == -1
+    assert record["condition"]["rotary"] == pytest.approx(1 / math.sin(math.radians(20.5)))
+    assert result.exit_code == 0
+
+
+def test_words_may_stand_alone() -> None:
+    a = call("forward", "X=1", "C=30", "--machine", HEAD)
+    b = call("forward", "--machine", HEAD, "--axes", "X=1", "--axes", "C=30")
+    assert a.stdout == b.stdout and "30.0000" in a.stdout
+
+
+def test_inverse_of_tip_and_direction_in_both_poses() -> None:
+    # Tool tilted by 30 degrees about X: direction (0, -sin 30, cos 30); twins A30 and C180 A-30.
+    result = call(
+        "inverse", "--tip", "X=5", "Y=6", "Z=7", "--direction", "0", "-0.5", f"{math.sqrt(3) / 2}",
+        "--both", "-m", HEAD, "--tool-length", "50", "--format", "csv",
+    )  # fmt: skip
+    found = rows(result)
+    angles = [(float(r["acs_C"]), float(r["acs_A"])) for r in found]
+    assert angles[0] == pytest.approx((0, 30), abs=1e-9)
+    assert angles[1] == pytest.approx((180, -30), abs=1e-9)
+    for r in found:
+        values = [float(r[f"acs_{axis}"]) for axis in "XYZCA"]
+        assert head_tip(*values, 50) == pytest.approx([5, 6, 7])
+
+
+def test_near_chooses_the_pose() -> None:
+    tool = ["--tip", "X=0", "Y=0", "Z=0", "--direction", "0", "-1", "1", "-m", HEAD]
+    near = rows(call("inverse", *tool, "--near", "A=-1", "C=170", "--format", "csv"))
+    assert float(near[0]["acs_A"]) == pytest.approx(-45)
+
+
+def test_a_table_goes_there_and_back() -> None:
+    Path("in.csv").write_text("X,Y,Z,C,A\n1,2,3,40,10\n\n# noted\n-1,0,5,-100,-35.5\n")
+    assert call("forward", "--poses", "in.csv", "-m", HEAD, "--out", "a.csv").exit_code == 0
+    assert call("inverse", "--poses", "a.csv", "-m", HEAD, "--out", "b.parquet").exit_code == 0
+    back = rows(call("forward", "--poses", "b.parquet", "-m", HEAD, "--format", "csv"))
+    # The second row comes back in the pose of axes at 0, so only the first keeps its angles.
+    assert [float(back[0][f"acs_{axis}"]) for axis in "XYZCA"] == pytest.approx([1, 2, 3, 40, 10])
+    with open("a.csv") as stream:
+        first = list(csv.DictReader(stream))
+    for a, b in zip(first, back, strict=True):
+        for name in ("mcs_X", "mcs_Y", "mcs_Z", "direction_i", "direction_k"):
+            assert float(a[name]) == pytest.approx(float(b[name]))
+
+
+def test_semicolons_and_decimal_commas() -> None:
+    Path("in.csv").write_text("X;Y;Z;C;A\n1,5;2;3;40;10\n")
+    found = rows(call("forward", "--poses", "in.csv", "-m", HEAD, "--format", "csv"))
+    assert float(found[0]["acs_X"]) == 1.5
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("X,Y,Z\n1,two,3\n", "in.csv:2:1: error N4201: column Y: 'two' is not a number"),
+        ("X,Y,Z\n1,2\n", "the line ends before column Z"),
+        ("X,Y,X\n1,2,3\n", "the column X twice"),
+        ("1,2,3\n4,5,6\n", "its first line has no column names"),
+        ("", "it is empty"),
+        ("U,V\n1,2\n", "has no column of the axes X Y Z C A"),
+    ],
+)
+def test_a_faulty_table_is_named(text: str, said: str) -> None:
+    Path("in.csv").write_text(text)
+    result = call("forward", "--poses", "in.csv", "-m", HEAD)
+    assert result.exit_code != 0
+    assert said in result.stderr
+
+
+def test_columns_that_are_missing_or_unused_are_named() -> None:
+    Path("in.csv").write_text("X,c\n1,30\n")
+    said = call("forward", "--poses", "in.csv", "-m", HEAD).stderr
+    assert "no column for Y, Z, C, A; 0 is taken" in said
+    assert "no axis is called c" in said
+
+
+def test_an_empty_cell_spoils_its_row_only() -> None:
+    Path("in.csv").write_text("X,Y,Z,C,A\n1,2,3,4,5\n1,2,,4,5\n")
+    result = call("inverse", "--poses", "in.csv", "-m", HEAD, "--format", "jsonl")
+    records = [json.loads(line) for line in result.stdout.splitlines()]
+    assert [r["error"] and r["error"]["id"] for r in records] == [None, "20703"]
+    assert records[1]["acs"]["X"] is None
+    assert result.exit_code == 1
+
+
+def test_an_unreachable_direction_is_a_message() -> None:
+    # The cardanic table tilts by at most 90 degrees: the tool cannot point downwards.
+    result = call(
+        "inverse", "--tip", "X=0", "Y=0", "Z=0", "--direction", "0", "0", "-1",
+        "-m", MACHINES / "cardanic_table",
+    )  # fmt: skip
+    assert "292014" in result.stdout and "1 of 1 poses have no solution" in result.stderr
+    assert result.exit_code == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["forward", "X=1"], "which machine?"),
+        (["forward", "-m", "nowhere", "X=1"], "machine nowhere does not exist"),
+        (["forward", "-m", HEAD], "write axis values, such as X=10"),
+        (["forward", "-m", HEAD, "Q=1"], "with a name of X Y Z C A"),
+        (["forward", "-m", HEAD, "X=1", "X=2"], "X stands twice"),
+        (["forward", "-m", HEAD, "X=east"], "'east' is not a number"),
+        (["forward", "-m", HEAD, "X=inf"], "inf is not a finite number"),
+        (["forward", "-m", HEAD, "--id", "9", "X=1"], "kinematics 9 is not configured"),
+        (["forward", "-m", MACHINES / "xyz", "X=1"], "configure no kinematics"),
+        (["forward", "-m", HEAD, "--poses", "no.csv"], "cannot read no.csv"),
+        (["forward", "-m", HEAD, "X=1", "--out", "a.txt"], "name it .csv, .jsonl or .parquet"),
+        (["inverse", "-m", HEAD, "--tip", "X=1", "Y=1", "Z=1"], "belong together"),
+        (["inverse", "-m", HEAD, "--tip", "X=1", "--direction", "0", "0", "1"], "all of X, Y"),
+        (["inverse", "-m", HEAD, "X=1", "--poses", "no.csv"], "give one of"),
+    ],
+)
+def test_wrong_usage_is_said(arguments: list[str | Path], said: str) -> None:
+    result = call(*arguments)
+    assert result.exit_code == 2
+    assert said in " ".join(result.stderr.split())
+
+
+def test_a_kinematics_that_cannot_be_used_names_the_line_of_the_list() -> None:
+    result = call("forward", "X=1", "-m", MACHINES / "ac_table_as_printed")
+    assert result.exit_code == 1
+    assert "N3009" in result.stderr and ".lis:" in result.stderr
