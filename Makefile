@@ -1,5 +1,6 @@
 # make demo   set everything up and run the main job on a real example
 # make test   set everything up and pass the tests
+# make bench  figures of ncscope and its peers, measured in one run
 # make check  formatting, lint, types, import contract and tests
 
 PYTHON ?= python3
@@ -7,7 +8,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test check format docs clean
+.PHONY: demo test check format docs bench clean
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -24,18 +25,21 @@ test: $(STAMP)
 	$(BIN)/python -m pytest
 
 check: $(STAMP)
-	$(BIN)/ruff format --check src tests
-	$(BIN)/ruff check src tests
+	$(BIN)/ruff format --check src tests benchmarks
+	$(BIN)/ruff check src tests benchmarks
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest
 
 format: $(STAMP)
-	$(BIN)/ruff format src tests
-	$(BIN)/ruff check --fix src tests
+	$(BIN)/ruff format src tests benchmarks
+	$(BIN)/ruff check --fix src tests benchmarks
 
 docs: $(STAMP)
 	$(BIN)/python -m ncscope.docs docs
+
+bench: $(STAMP)
+	$(BIN)/python benchmarks/bench.py --long 10000000
 
 clean:
 	rm -rf $(VENV) build

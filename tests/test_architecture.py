@@ -19,7 +19,7 @@ from ncscope.catalogue import CATALOGUE
 SOURCE = Path(ncscope.__file__).parent
 LAYERS = (
     "catalogue",
-    "diagnostics",
+    "diagnostics compilation",
     "frames",
     "kinematics language contour",
     "coordinates",

@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numba import njit
 
 from ncscope.channel.state import Position, State
+from ncscope.compilation import compiled
 from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
 from ncscope.language.scanner import PlainRows
@@ -103,7 +103,7 @@ def _state_after(state: State, stretch: Stretch, absolute: bool) -> State:
     return replace(state, modal=modal, position=position, block=None if block < 0 else block)
 
 
-@njit(cache=True)
+@compiled
 def _fill_codes(codes, before, filled):
     for i in range(len(codes)):
         if codes[i] >= 0:
@@ -111,7 +111,7 @@ def _fill_codes(codes, before, filled):
         filled[i] = before
 
 
-@njit(cache=True)
+@compiled
 def _fill_feed(feed, factor, before, filled):
     for i in range(len(feed)):
         if not np.isnan(feed[i]):
@@ -119,7 +119,7 @@ def _fill_feed(feed, factor, before, filled):
         filled[i] = before
 
 
-@njit(cache=True)
+@compiled
 def _fill_program(values, absolute, factors, start, program):
     """Programmed absolute values: words as they are under G90, added up under G91."""
     for j in range(values.shape[1]):

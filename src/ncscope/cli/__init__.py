@@ -16,6 +16,7 @@ from ncscope.cli.check import check_command
 from ncscope.cli.explain import explain_command
 from ncscope.cli.kin import kin_app
 from ncscope.cli.run import run_command
+from ncscope.cli.screen import announce_compiling
 from ncscope.cli.where import where_command
 
 app = typer.Typer(
@@ -48,6 +49,7 @@ def _root(
 
 def main() -> None:
     """Entry point; a broken pipe or Ctrl-C ends without a traceback."""
+    announce_compiling()
     try:
         app()
     except KeyboardInterrupt:

@@ -53,6 +53,18 @@ def progress_bar(total: int) -> Iterator[Callable[[int], None] | None]:
         yield lambda offset: bar.update(task, completed=offset)
 
 
+def announce_compiling() -> None:
+    """Says once, on a terminal, why the first run on a machine takes some seconds longer."""
+    from ncscope.compilation import when_compiling
+
+    def say() -> None:
+        when_compiling(None)
+        typer.echo("compiling the inner loops, once on this machine ...", err=True)
+
+    if sys.stderr.isatty():
+        when_compiling(say)
+
+
 def fail(message: str, code: int = 2) -> NoReturn:
     typer.echo(f"ncscope: {message}", err=True)
     raise typer.Exit(code)

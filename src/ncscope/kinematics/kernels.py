@@ -17,7 +17,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from ncscope.compilation import compiled
 
 OK, SINGULAR, UNREACHABLE, ZERO_VECTOR, NOT_FINITE = 0, 1, 2, 3, 4
 """Status of a row."""
@@ -29,7 +30,7 @@ _RAD_PER_DEG = math.pi / 180.0
 _S6, _C6 = 1.58969099521155010221e-10, -1.13596475577881948265e-11
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def sincos_deg(angle):
     """Sine and cosine of degrees, exact at every multiple of 90."""
     turns = np.rint(angle / 90.0)
@@ -53,7 +54,7 @@ def sincos_deg(angle):
     return s, c
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def rotate(kx, ky, kz, s, c, x, y, z):
     """The vector (x, y, z) turned about the unit vector k, right-hand rule (Rodrigues)."""
     along = (kx * x + ky * y + kz * z) * (1.0 - c)
@@ -64,7 +65,7 @@ def rotate(kx, ky, kz, s, c, x, y, z):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def forward_rows(joints, flange, linkage, axes, tool_length, tip, direction):
     """Writes tool tip (m, 3) and tool direction (m, 3), workpiece system, for axes (m, >= n).
 
@@ -97,7 +98,7 @@ def forward_rows(joints, flange, linkage, axes, tool_length, tip, direction):
         direction[row, 0], direction[row, 1], direction[row, 2] = dx, dy, dz
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def solve_rows(joints, flange, unlinkage, target, tool_length, axes, status):
     """Writes columns 0..2 of axes (m, >= n) so that the tool tip is at target[:, :3].
 
@@ -142,7 +143,7 @@ def solve_rows(joints, flange, unlinkage, target, tool_length, axes, status):
             )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _solve3(columns, x, y, z):
     """Status and the factors of columns[0], columns[1], columns[2] that sum up to (x, y, z)."""
     ax, ay, az = columns[0, 0], columns[0, 1], columns[0, 2]

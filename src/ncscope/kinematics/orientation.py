@@ -15,9 +15,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from ncscope.compilation import compiled
 from ncscope.kinematics.kernels import (
     NOT_FINITE,
     OK,
@@ -127,19 +127,19 @@ def _turn_rad(k: Array, a: Array, b: Array) -> float:
     return math.atan2(float(k @ np.cross(a, b)), float(a @ b))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _reach_rad(f12, fz):
     return abs(f12 - fz), min(f12 + fz, 2.0 * math.pi - f12 - fz)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def wrap_deg(angle):
     """The same angle in (-180, 180]; within 1e-9 of -180 it counts as 180."""
     wrapped = angle - 360.0 * math.floor((angle + 180.0) / 360.0)
     return 180.0 if wrapped <= -180.0 + _SNAP_DEG else wrapped
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _direction_rows(geometry, angles, out):
     for row in range(angles.shape[0]):
         x, y, z = geometry[2, 0], geometry[2, 1], geometry[2, 2]
@@ -149,7 +149,7 @@ def _direction_rows(geometry, angles, out):
         out[row, 0], out[row, 1], out[row, 2] = x, y, z
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _half_sincos(sine, cosine):
     """Sine and cosine of phi/2 from those of phi in [0, pi], accurate at both ends."""
     if cosine >= 0.0:
@@ -159,7 +159,7 @@ def _half_sincos(sine, cosine):
     return s, 0.5 * sine / s
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _first_angle(geometry, second_angle, x, y, z):
     """Angle of the first axis that turns the tool, set by the second angle, into (x, y, z)."""
     kx, ky, kz = geometry[0, 0], geometry[0, 1], geometry[0, 2]
@@ -177,7 +177,7 @@ def _first_angle(geometry, second_angle, x, y, z):
     return wrap_deg(math.degrees(math.atan2(sine, cosine)))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _orient_rows(geometry, numbers, directions, start, pose, angles, status):
     f12, fz, side, best, free = numbers
     low, high = _reach_rad(f12, fz)

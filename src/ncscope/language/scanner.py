@@ -12,8 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from ncscope.compilation import compiled
 
 CHUNK = 65_536
 """Rows of one scan: bounds the memory of a run."""
@@ -79,7 +80,7 @@ class Scanner:
         )
 
 
-@njit(cache=True)
+@compiled
 def _scan(data, at, line, columns, powers, lines, blocks, codes, feeds, values, stops):
     """Rows read; a blank line between plain blocks belongs to the run."""
     count, size = 0, len(data)
@@ -99,7 +100,7 @@ def _scan(data, at, line, columns, powers, lines, blocks, codes, feeds, values, 
     return count
 
 
-@njit(cache=True)
+@compiled
 def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
     """Offset behind the line when it is plain, 0 for a blank line, -1 for any other."""
     size, start = len(data), at
@@ -146,7 +147,7 @@ def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
     return at + 1 if at < size else at
 
 
-@njit(cache=True)
+@compiled
 def _set_code(codes, row, number):
     """G0 G1 G90 G91, one of each group; False for any other."""
     if number == 0 or number == 1:
@@ -162,7 +163,7 @@ def _set_code(codes, row, number):
     return False
 
 
-@njit(cache=True)
+@compiled
 def _number(data, at):
     """Digits at `at` after blanks and one sign: mantissa, digit count, decimals (-1 without a
     point), sign, and the offset behind; offset -1 when this is no literal or too long to be exact.
@@ -193,7 +194,7 @@ def _number(data, at):
     return mantissa, digits, decimals, negative, at
 
 
-@njit(cache=True)
+@compiled
 def _ends_number(char):
     """A blank, an end of line, or a letter that begins the next word."""
     return char == 32 or char == 9 or char == 10 or char == 13 or 65 <= char <= 90

@@ -15,6 +15,7 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
+from ncscope.compilation import compiled
 from ncscope.frames import Array
 
 COMPILED_FROM = 300
@@ -57,9 +58,7 @@ def _packed(texts: tuple[str, ...]) -> tuple[NDArray[np.uint8], NDArray[np.int64
 
 @cache
 def _compiled() -> Any:
-    from numba import njit
-
-    return njit(cache=True)(splice)
+    return compiled(splice)
 
 
 def splice(out, digits, whole, codes, pieces, piece_at, words, word_at, none):

@@ -1,0 +1,37 @@
+"""NC programs for measuring: the same bytes on every machine.
+
+`write(kind, blocks, path)` writes a program with so many motion blocks. `five_axis` and
+`complete` differ in the machine only; `three_axis` runs under a zero offset and a turned
+coordinate system; `peers` is the five-axis program without the lines that other tools do not read.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+HEADS = {
+    "five_axis": "%MAIN\nN1 G54 G90 F2000\nN2 #KIN ID [91]\nN3 #TRAFO ON\n",
+    "complete": "%MAIN\nN1 G54 G90 F2000\nN2 #KIN ID [91]\nN3 #TRAFO ON\n",
+    "three_axis": "%MAIN\nN1 G54 G90 F2000\nN2 #CS ON [10,20,30,5,10,15]\n",
+    "peers": "G90\n",
+}
+TAILS = {"five_axis": "#TRAFO OFF\nM30\n", "complete": "#TRAFO OFF\nM30\n", "three_axis": "M30\n"}
+
+
+def write(kind: str, blocks: int, path: Path) -> None:
+    """A spiral with a swinging tool; 55 to 60 bytes a block."""
+    with path.open("w", encoding="ascii", newline="\n") as out:
+        out.write(HEADS[kind])
+        for first in range(0, blocks, 50_000):
+            out.writelines(_line(kind, i) for i in range(first, min(first + 50_000, blocks)))
+        out.write(TAILS.get(kind, "M30\n"))
+
+
+def _line(kind: str, i: int) -> str:
+    turn = i * 1e-4
+    x, y, z = 100 * math.cos(turn), 100 * math.sin(turn), (0.001 * i) % 50
+    rotary = f" A{20 * math.sin(turn / 3):.3f} C{90 * math.cos(turn / 7):.3f}"
+    if kind == "three_axis":
+        rotary = ""
+    return f"N{(10 * i + 10) % 10**8} G1 X{x:.3f} Y{y:.3f} Z{z:.3f}{rotary} F2000\n"
