@@ -154,6 +154,8 @@ CATALOGUE: dict[str, Entry] = {
     "20612": Entry("error", "#PSET is not allowed while a mirror is active."),
     "20669": Entry("error", "#TLC and a transformation exclude each other."),
     "20675": Entry("error", "The values of a coordinate system are written wrongly."),
+    "20738": Entry("error", "Data of the selected tool are written in a block with a D word."),
+    "20741": Entry("error", "A value of the selected tool is written twice in a block."),
     "20774": Entry("error", "#ECS cannot be selected while another coordinate system is active."),
     "20805": Entry("error", "The command is not allowed while #MCS is active."),
     "20820": Entry("error", "The id of a coordinate system is not allowed."),
@@ -206,6 +208,7 @@ CATALOGUE: dict[str, Entry] = {
     "N2026": Entry("note", "Manual mode moves nothing: no jog increments are given."),
     "N2027": Entry("error", "G74 needs at least one axis."),
     "N2028": Entry("error", "A correction of the tool length is active already."),
+    "N2040": Entry("error", "The axis of #TLAX is no main axis."),
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),

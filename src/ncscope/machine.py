@@ -30,6 +30,7 @@ class Axis:
     `number` is the logical axis number. `assumed`: no axis list said whether the axis is rotary.
     `modulo_range`: (low, high) in degrees for a modulo axis, else None.
     `limits`: software limits (mm or degrees) of the axis position, None when none are monitored.
+    `reference`: position after homing. `measuring`: G100 may measure with it (P-AXIS-00118).
     """
 
     name: str
@@ -39,6 +40,7 @@ class Axis:
     modulo_range: tuple[float, float] | None = None
     limits: tuple[float, float] | None = None
     reference: float = 0.0
+    measuring: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +82,8 @@ class Tool:
     `fixed`: P-TOOL-00010, offsets act along machine axes even in a rotated coordinate system.
     `orientation`: P-TOOL-00146, mount -> tip in the machine system, None when not configured.
     `kinematic_parameters`: wz[i].kinematic.param[j], list units, added to param[j].
+    `parameters`: wz[i].param[j], for the program's own use. `data`: what has no effect on
+    positions, by its list key without `wz[i].`, in list units; programs can read it.
     """
 
     length: float = 0.0
@@ -90,6 +94,8 @@ class Tool:
     orientation: tuple[float, float, float] | None = None
     kinematic_id: int = 0
     kinematic_parameters: Mapping[int, float] = field(default_factory=dict)
+    parameters: Mapping[int, float] = field(default_factory=dict)
+    data: Mapping[str, float] = field(default_factory=dict)
     origin: str | None = None
 
 
@@ -101,6 +107,9 @@ class ChannelSettings:
     orientation_mode: int = 0  # P-CHAN-00112 ori_rotation_angle
     tool_moves_at_once: bool = False  # P-CHAN-00100 move_tool_offsets_directly
     tool_with_t: bool = False  # P-CHAN-00014 einrechnen_mit_t
+    tool_length_stays: bool = False  # P-CHAN-00420 remain_tool_length_in_ax
+    measuring_type: int = 1  # P-CHAN-00057 messtyp
+    probe_must_answer: bool = False  # P-CHAN-00176 meas_error_no_signal
     keep_parameters: bool = False  # P-CHAN-00067 p_param_haltend
     rotation_sequence: str = "ZYX"  # P-CHAN-00394
     rotation_fixed: bool = False  # P-CHAN-00393

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from ncscope.channel import tools
 from ncscope.channel.commands import COMMANDS, LAST
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
@@ -117,6 +118,7 @@ def _collect(draft: Draft, words: tuple[tree.Word, ...]) -> Words:
     for word in words:
         match word:
             case tree.Assignment():
+                tools.note_write(draft, collected, word)
                 write_variable(draft, word)
             case tree.GWord():
                 _collect_g(draft, collected, word)

@@ -120,12 +120,17 @@ def active_tool(state: State) -> ActiveTool:
 
 
 def _tool_direction(state: State, record: Tool) -> tuple[float, float, float]:
-    """Unit vector mount -> tip: P-TOOL-00146, else against the third axis of the plane."""
+    """Unit vector mount -> tip: P-TOOL-00146, else #TLAX, else against the third axis of the
+    plane. The axes move by plus the length along the axis that #TLAX names with +."""
     if record.orientation is not None:
         vector = np.array(record.orientation, dtype=float)
         return tuple(vector / np.linalg.norm(vector))
     direction = [0.0, 0.0, 0.0]
-    direction[state.main_axes[2]] = -1.0
+    pinned = state.length_axis
+    if pinned is None:
+        direction[state.main_axes[2]] = -1.0
+    else:
+        direction[pinned.axis] = -pinned.sign
     return direction[0], direction[1], direction[2]
 
 

@@ -116,7 +116,12 @@ def _reference_point(draft: Draft, words: Words) -> None:
     words.axes.clear()
 
 
+_NO_TARGETS = frozenset((74, 100, 200, 201, 202))
+"""G functions whose axis words do not end where they say."""
+
+
 def _tool(draft: Draft, words: Words) -> None:
+    """T and D; with P-CHAN-00100 the axes move at once, together with the words of the block."""
     place = words.addresses.pop("T", None)
     record = words.addresses.pop("D", None)
     if place is not None:
@@ -125,7 +130,9 @@ def _tool(draft: Draft, words: Words) -> None:
         if draft.machine.settings.tool_with_t and record is None:
             record = place
     if record is not None:
-        tools.select(draft, round(record[0]), record[1])
+        tools.refuse_written(draft, words, record[1])
+        together = bool(words.axes) and not _NO_TARGETS & words.gfunctions.keys()
+        tools.select(draft, round(record[0]), record[1], together)
 
 
 def _technology(draft: Draft, words: Words) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ncscope.channel import offsets
-from ncscope.channel.state import Kinematics, Position, State
+from ncscope.channel.state import Kinematics, LengthAxis, Position, State
 from ncscope.coordinates import Coordinates
 from ncscope.machine import Machine, OffsetRecord
 
@@ -23,6 +23,8 @@ def start_state(machine: Machine, clamp_index: int | None = None) -> State:
         position=Position(zeros, zeros),
         kinematics=Kinematics(machine.kinematic_parameters, machine.settings.default_kinematic_id),
         zero_offsets=machine.zero_offsets,
+        tools=machine.tools,
+        length_axis=LengthAxis(2, 1.0) if machine.settings.tool_length_stays else None,
     )
     if clamp_index is not None:
         record: OffsetRecord = machine.clamp_positions[clamp_index]

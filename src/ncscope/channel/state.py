@@ -74,6 +74,14 @@ class SelectedTool:
 
 
 @dataclass(frozen=True, slots=True)
+class LengthAxis:
+    """#TLAX: the main axis 0 to 2 that takes the tool length in every plane, and its sign."""
+
+    axis: int
+    sign: float
+
+
+@dataclass(frozen=True, slots=True)
 class Kinematics:
     """The kinematic data sets with what the program wrote into them, and the preselected id."""
 
@@ -123,8 +131,10 @@ class Stored:
 class State:
     """Everything that a block may read or change.
 
-    axes: the channel configuration. variables: `P5`, `V.P.NAME` -> value. definitions: stored
-    coordinate systems by kind (`#CS`, `#ACS`, `#BCS`) and id, in the order of their definition.
+    axes: the channel configuration. tools: the tool table with what the program wrote into it.
+    length_axis: None lets the tool length follow the plane. variables: `P5`, `V.P.NAME` -> value.
+    definitions: stored coordinate systems by kind (`#CS`, `#ACS`, `#BCS`) and id, in the order of
+    their definition.
     parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
     values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
     #MCS is on. measured: what G100 measured, by axis name.
@@ -136,8 +146,10 @@ class State:
     position: Position
     kinematics: Kinematics
     zero_offsets: ZeroOffsets
+    tools: Mapping[int, Tool] = field(default_factory=dict)
     modal: Modal = Modal()
     tool: SelectedTool = field(default_factory=SelectedTool)
+    length_axis: LengthAxis | None = None
     zero_index: int = 0
     clamp_index: int = 0
     variables: Mapping[str, Stored] = field(default_factory=dict)

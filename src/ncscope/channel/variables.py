@@ -9,41 +9,14 @@ Source: TF5200 coordinate systems and offsets, TF5200 programming manual, FCT-C2
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import replace
 
-from ncscope.channel import offsets, readers
+from ncscope.channel import offsets, readers, tool_variables
 from ncscope.channel.draft import Draft
+from ncscope.channel.rows import Reference, Row, axis_rows, length, plain, refuse_while_active
 from ncscope.coordinates import Offset
-from ncscope.diagnostics import Span
 from ncscope.kinematics.parameters import PARAMETER_COUNT, KinematicParameters, field_index
 from ncscope.machine import ZERO_GROUPS, OffsetRecord
-
-Value = float | str
-
-
-@dataclass(frozen=True, slots=True)
-class Reference:
-    """A variable with its indices evaluated: what a table row reads or writes.
-
-    numbers: all indices from left to right. axis: channel index where the variable names one.
-    field: the rest of the name after `V.G.KIN[i].`, as a parameter field.
-    """
-
-    text: str
-    numbers: tuple[int, ...]
-    span: Span
-    axis: int = 0
-    field: str = ""
-
-
-class Row(NamedTuple):
-    """One table row; `write` is None for a variable that a program may only read."""
-
-    read: Callable[[Draft, Reference], Value]
-    write: Callable[[Draft, Reference, float], None] | None
-    meaning: str
-
 
 # --- kinematics --------------------------------------------------------------------------------
 
@@ -71,54 +44,12 @@ def _read_kin(draft: Draft, ref: Reference) -> float:
 
 
 def _write_kin(draft: Draft, ref: Reference, value: float) -> None:
-    _refuse_while_active(draft, ref)
+    refuse_while_active(draft, ref)
     parameters, index = _kin_parameter(draft, ref)
     held = draft.state.kinematics
     changed = parameters.with_value(index, value, ref.span)
     kinematics = replace(held, parameters={**held.parameters, parameters.id: changed})
     draft.state = replace(draft.state, kinematics=kinematics)
-
-
-def _refuse_while_active(draft: Draft, ref: Reference) -> None:
-    if draft.state.coordinates.kinematics is not None:
-        draft.fail(
-            "21022",
-            ref.span,
-            f"{ref.text} cannot be written while a transformation is active",
-            "switch it off first (#TRAFO OFF)",
-        )
-
-
-# --- tool --------------------------------------------------------------------------------------
-
-
-def _write_tool(draft: Draft, ref: Reference, **changes) -> None:
-    _refuse_while_active(draft, ref)
-    tool = draft.state.tool
-    record = replace(tool.record, **changes)
-    written = replace(tool, record=record, selected_at=draft.place)
-    draft.state = offsets.with_tool(draft.state, written)
-
-
-def _mm(draft: Draft, value: float) -> float:
-    return value * draft.modes.length_factor
-
-
-def _write_length(draft: Draft, ref: Reference, value: float) -> None:
-    _write_tool(draft, ref, length=_mm(draft, value))
-
-
-def _write_radius(draft: Draft, ref: Reference, value: float) -> None:
-    _write_tool(draft, ref, radius=_mm(draft, value))
-
-
-def _write_tool_axis(draft: Draft, ref: Reference, value: float) -> None:
-    held = draft.state.tool.record.axis_offsets
-    _write_tool(draft, ref, axis_offsets={**held, ref.axis: draft.length(ref.axis, value)})
-
-
-def _read_tool_axis(draft: Draft, ref: Reference) -> float:
-    return draft.shown(ref.axis, draft.state.tool.record.axis_offsets.get(ref.axis, 0.0))
 
 
 # --- zero offsets ------------------------------------------------------------------------------
@@ -206,73 +137,47 @@ def _offset_reader(kind: str) -> Callable[[Draft, Reference], float]:
     return read
 
 
-def _length(value: Callable[[Draft], float]) -> Callable[[Draft, Reference], float]:
-    return lambda draft, ref: value(draft) / draft.modes.length_factor
-
-
-def _plain(value: Callable[[Draft], float]) -> Callable[[Draft, Reference], float]:
-    return lambda draft, ref: value(draft)
-
-
-def _axis_rows(prefix: str, row: Row) -> dict[str, Row]:
-    """An axis variable is written with an axis name or with a channel index."""
-    return {f"{prefix}.<axis>": row, f"{prefix}[]": row}
-
-
 VARIABLES: dict[str, Row] = {
     "V.G.KIN[].<field>": Row(_read_kin, _write_kin, "parameter of a kinematics, list units"),
-    "V.G.WZ_AKT.L": Row(
-        _length(lambda d: d.state.tool.record.length), _write_length, "length of the tool"
-    ),
-    "V.G.WZ_AKT.R": Row(
-        _length(lambda d: d.state.tool.record.radius), _write_radius, "radius of the tool"
-    ),
-    **_axis_rows("V.G.WZ_AKT.V", Row(_read_tool_axis, _write_tool_axis, "axis offset of the tool")),
-    "V.G.WZ[].L": Row(
-        lambda d, r: readers.record(d, r).length / d.modes.length_factor, None, "length of a tool"
-    ),
-    "V.G.WZ[].R": Row(
-        lambda d, r: readers.record(d, r).radius / d.modes.length_factor, None, "radius of a tool"
-    ),
-    **_axis_rows("V.G.WZ[].V", Row(readers.record_axis, None, "axis offset of a tool")),
-    **_axis_rows("V.G.NP[].V", Row(_read_np, _write_np, "zero offset of a group")),
-    **_axis_rows(
+    **tool_variables.ROWS,
+    **axis_rows("V.G.NP[].V", Row(_read_np, _write_np, "zero offset of a group")),
+    **axis_rows(
         "V.G.NP_AKT.V", Row(_read_np_active, _write_np_active, "zero offset that is active")
     ),
     "V.G.NP_DEFAULT": Row(
-        _plain(lambda d: d.state.zero_offsets.default_index),
+        plain(lambda d: d.state.zero_offsets.default_index),
         _write_np_default,
         "group that is active after program start",
     ),
-    "V.G.T_AKT": Row(_plain(lambda d: d.state.tool.place), None, "tool place of the last T"),
-    "V.G.D_AKT": Row(_plain(lambda d: d.state.tool.record_index), None, "tool data of the last D"),
-    "V.G.AKT_PLATZ": Row(_plain(lambda d: d.state.clamp_index), None, "clamp position"),
-    "V.G.MASS_MM": Row(_plain(lambda d: float(d.modes.inch)), None, "0 in millimetres"),
+    "V.G.T_AKT": Row(plain(lambda d: d.state.tool.place), None, "tool place of the last T"),
+    "V.G.D_AKT": Row(plain(lambda d: d.state.tool.record_index), None, "tool data of the last D"),
+    "V.G.AKT_PLATZ": Row(plain(lambda d: d.state.clamp_index), None, "clamp position"),
+    "V.G.MASS_MM": Row(plain(lambda d: float(d.modes.inch)), None, "0 in millimetres"),
     "V.G.ROT_ACTIVE": Row(
-        _plain(lambda d: float(d.state.coordinates.contour.turn is not None)),
+        plain(lambda d: float(d.state.coordinates.contour.turn is not None)),
         None,
         "1 while a contour rotation is active",
     ),
-    "V.G.ROT_ANGLE": Row(_plain(lambda d: d.state.turn.angle), None, "contour rotation: angle"),
+    "V.G.ROT_ANGLE": Row(plain(lambda d: d.state.turn.angle), None, "contour rotation: angle"),
     "V.G.ROT_CENTER1": Row(
-        _length(lambda d: d.state.turn.centre[0]), None, "contour rotation: centre, first axis"
+        length(lambda d: d.state.turn.centre[0]), None, "contour rotation: centre, first axis"
     ),
     "V.G.ROT_CENTER2": Row(
-        _length(lambda d: d.state.turn.centre[1]), None, "contour rotation: centre, second axis"
+        length(lambda d: d.state.turn.centre[1]), None, "contour rotation: centre, second axis"
     ),
-    "V.G.BLOCK_NR": Row(_plain(lambda d: d.state.block or 0), None, "block number"),
-    "V.G.FEEDRATE": Row(_length(lambda d: d.modes.feed or 0.0), None, "programmed feed"),
-    **_axis_rows("V.A.ABS", Row(_absolute, None, "absolute value in the innermost system")),
-    **_axis_rows("V.A.PROG", Row(_on_machine_axes, None, "programmed value")),
-    **_axis_rows("V.A.MENT", Row(_programmed, None, "programmed value before mirroring")),
-    **_axis_rows("V.A.ACT_POS", Row(_programmed, None, "present value without offsets")),
-    **_axis_rows("V.A.ACS.ABS", Row(_machine_axis, None, "axis position")),
-    **_axis_rows("V.A.BZP", Row(_offset_reader("g92"), None, "reference point offset (G92)")),
-    **_axis_rows("V.A.MEIN", Row(_offset_reader("measure"), None, "measuring offset included")),
-    **_axis_rows("V.A.MESS", Row(readers.measured("value"), None, "measured value")),
-    **_axis_rows("V.A.MOFFS", Row(readers.measured("offset"), None, "measured value - target")),
-    **_axis_rows("V.A.MERF", Row(readers.was_measured, None, "1 when the axis has been measured")),
-    **_axis_rows("V.A.MANUAL_OFFSETS", Row(lambda d, r: 0.0, None, "manual offsets: no jog here")),
-    **_axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),
+    "V.G.BLOCK_NR": Row(plain(lambda d: d.state.block or 0), None, "block number"),
+    "V.G.FEEDRATE": Row(length(lambda d: d.modes.feed or 0.0), None, "programmed feed"),
+    **axis_rows("V.A.ABS", Row(_absolute, None, "absolute value in the innermost system")),
+    **axis_rows("V.A.PROG", Row(_on_machine_axes, None, "programmed value")),
+    **axis_rows("V.A.MENT", Row(_programmed, None, "programmed value before mirroring")),
+    **axis_rows("V.A.ACT_POS", Row(_programmed, None, "present value without offsets")),
+    **axis_rows("V.A.ACS.ABS", Row(_machine_axis, None, "axis position")),
+    **axis_rows("V.A.BZP", Row(_offset_reader("g92"), None, "reference point offset (G92)")),
+    **axis_rows("V.A.MEIN", Row(_offset_reader("measure"), None, "measuring offset included")),
+    **axis_rows("V.A.MESS", Row(readers.measured("value"), None, "measured value")),
+    **axis_rows("V.A.MOFFS", Row(readers.measured("offset"), None, "measured value - target")),
+    **axis_rows("V.A.MERF", Row(readers.was_measured, None, "1 when the axis has been measured")),
+    **axis_rows("V.A.MANUAL_OFFSETS", Row(lambda d, r: 0.0, None, "manual offsets: no jog here")),
+    **axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),
 }
 """Every variable of the control that is known here, by pattern."""

@@ -23,6 +23,7 @@ class Words:
     signed: set[int] = field(default_factory=set)
     addresses: dict[str, tuple[float, Span]] = field(default_factory=dict)
     mfunctions: dict[int, Span] = field(default_factory=dict)
+    tool_writes: dict[str, Span] = field(default_factory=dict)
 
 
 def collect_axes(draft: Draft, axes: dict[int, tuple[float, Span]], word: tree.AxisWord) -> int:

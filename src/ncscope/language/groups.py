@@ -14,11 +14,14 @@ from ncscope.language.tree import Expression, Group, Item, Name
 
 _KEY = re.compile(r"(@[Pp][0-9]+|[A-Za-z_][\w.]*(?:\[[0-9]+\])*)[ \t\0\r]*=(?!=)")
 _VARIABLE_KEY = re.compile(r"[Vv]\.")
-_NAME = re.compile(r"[^\W0-9][\w./\\:-]*")
+_NAME = re.compile(r"[^\W0-9][\w./\\:-]*(?:[ \t]*[-+](?=[ \t]*\]))?")
+"""A name, a file name, or an axis with a sign before the closing bracket (`[Z+]`)."""
 _RAW_NAME = re.compile(r'[^\s\0\[\],"=]+')
 _FUNCTION = re.compile(r"([A-Za-z_]\w*)[ \t\0\r]*\[")
 _FILE_LIKE = re.compile(r"[Pp][0-9]+[./\\][A-Za-z]")
-_PLAIN_KEY = re.compile(r"([A-Za-z_]\w*)[ \t\0\r]+(?=[-+.0-9\"]|[Pp][0-9\[]|[Vv]\.)")
+_PLAIN_KEY = re.compile(
+    r"([A-Za-z_]\w*)[ \t\0\r]+(?![-+][ \t]*\])(?=[-+.0-9\"]|[Pp][0-9\[]|[Vv]\.)"
+)
 _NUMBER_OR_SIGN = re.compile(r'[-+.0-9"@\[]')
 
 

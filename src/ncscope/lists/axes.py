@@ -62,6 +62,7 @@ def axis_record(
         modulo_range=turns,
         limits=_limits(last, turns if rotary else None),
         reference=_value(last, "getriebe[0].pos_refpkt", 0) / UNITS,
+        measuring=bool(_value(last, "kenngr.messachse", 0)),
     )
     return AxisRecord(axis, kind == SPINDLE_TYPE), found
 

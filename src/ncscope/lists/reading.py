@@ -90,7 +90,7 @@ def assemble(
         _known_axes(own, axis_records),
         records.zero_offsets(by_kind["zero"]),
         records.clamp_positions(by_kind["clamp"]),
-        records.tools(by_kind["tool"]),
+        records.tools(by_kind["tool"], frozenset(i for i, axis in enumerate(own) if axis.rotary)),
         parameters,
         settings,
     )
@@ -126,7 +126,14 @@ def _main_axis(axis: Axis, axis_records: dict[int, AxisRecord]) -> Axis:
     record = axis_records.get(axis.number)
     if record is None or record.axis.rotary:
         return axis
-    return Axis(axis.name, axis.number, limits=record.axis.limits, reference=record.axis.reference)
+    own = record.axis
+    return Axis(
+        axis.name,
+        axis.number,
+        limits=own.limits,
+        reference=own.reference,
+        measuring=own.measuring,
+    )
 
 
 def _known_axes(own: tuple[Axis, ...], axis_records: dict[int, AxisRecord]) -> dict[int, Axis]:

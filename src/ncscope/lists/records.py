@@ -26,6 +26,9 @@ SETTINGS_OF_KEYS = {
     "ori_rotation_angle": "orientation_mode",
     "move_tool_offsets_directly": "tool_moves_at_once",
     "einrechnen_mit_t": "tool_with_t",
+    "remain_tool_length_in_ax": "tool_length_stays",
+    "messtyp": "measuring_type",
+    "meas_error_no_signal": "probe_must_answer",
     "p_param_haltend": "keep_parameters",
     "ori_wcs": "direction_turns",
     "coordinate_system.rotation_sequence": "rotation_sequence",
@@ -62,14 +65,24 @@ def clamp_positions(readings: Iterable[Reading]) -> dict[int, OffsetRecord]:
     return {group: _offset_record(parts) for group, parts in sorted(groups.items())}
 
 
-def tools(readings: Iterable[Reading]) -> dict[int, Tool]:
-    """The tool records that the list mentions, by tool index."""
+TOOL_DATA = (
+    "typ", "srk_lage", "log_ax_nr_spdl", "vb_min", "vb_max", "a_max",
+    "tool_id.sister", "tool_id.sister_valid", "tool_id.variant", "tool_id.variant_valid",
+)  # fmt: skip
+"""Fields of a tool record that programs can read and that change no position."""
+
+
+def tools(readings: Iterable[Reading], rotary: frozenset[int] = frozenset()) -> dict[int, Tool]:
+    """The tool records that the list mentions, by tool index.
+
+    rotary: channel indices of rotary axes, whose offsets are angles in any unit of length.
+    """
     found: dict[int, dict[tuple[str, int], Reading]] = defaultdict(dict)
     for reading in readings:
         if reading.value is not None and reading.row.key.startswith("wz[]."):
             index = reading.indices[1] if len(reading.indices) > 1 else 0
             found[reading.indices[0]][_tool_field(reading), index] = reading
-    return {index: _tool(parts) for index, parts in sorted(found.items())}
+    return {index: _tool(parts, rotary) for index, parts in sorted(found.items())}
 
 
 def channel_settings(
@@ -108,19 +121,24 @@ def _tool_field(reading: Reading) -> str:
     return reading.row.key.removeprefix("wz[].").removesuffix("[]")
 
 
-def _tool(parts: Mapping[tuple[str, int], Reading]) -> Tool:
+def _tool(parts: Mapping[tuple[str, int], Reading], rotary: frozenset[int]) -> Tool:
     single = {field: reading for (field, _), reading in parts.items()}
     factor = (MM_PER_INCH if _number(single, "mass_einheit") == 1 else 1.0) / UNITS
     offsets = _indexed(parts, "ax_versatz")
     return Tool(
         length=_number(single, "laenge") * factor,
         radius=_number(single, "radius") * factor,
-        axis_offsets={axis: value * factor for axis, value in offsets.items()},
+        axis_offsets={
+            axis: value / UNITS if axis in rotary else value * factor
+            for axis, value in offsets.items()
+        },
         valid=bool(_number(single, "gueltig")),
         fixed=bool(_number(single, "tool_fixed")),
         orientation=_orientation(_indexed(parts, "orientation_vector")),
         kinematic_id=int(_number(single, "kin_id")),
         kinematic_parameters=_indexed(parts, "kinematic.param"),
+        parameters=_indexed(parts, "param"),
+        data={key: _number(single, key) for key in TOOL_DATA if key in single},
         origin=single.get("laenge", next(iter(parts.values()))).entry.place,
     )
 

@@ -8,6 +8,7 @@ from ncscope.channel import manual
 from ncscope.channel.commands import (
     axes,
     contour,
+    length_axis,
     length_correction,
     machine_system,
     messages,
@@ -22,6 +23,7 @@ COMMANDS = {
     **preset.COMMANDS,
     **machine_system.COMMANDS,
     **length_correction.COMMANDS,
+    **length_axis.COMMANDS,
     **manual.COMMANDS,
     **contour.COMMANDS,
     **transformation.COMMANDS,

@@ -1,0 +1,2 @@
+N10 V.G.WZ_AKT.L = 5 V.G.WZ_AKT.L = 6
+N20 M30
