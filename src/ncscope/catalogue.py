@@ -160,6 +160,7 @@ CATALOGUE: dict[str, Entry] = {
     "20805": Entry("error", "The command is not allowed while #MCS is active."),
     "20820": Entry("error", "The id of a coordinate system is not allowed."),
     "20821": Entry("error", "No coordinate system with this id has been defined."),
+    "20823": Entry("error", "An effector coordinate system cannot be defined."),
     "20824": Entry("warning", "#CS OFF without an active coordinate system has no effect."),
     "20825": Entry("error", "An active coordinate system cannot be defined anew."),
     "20826": Entry("error", "Too many coordinate systems are linked."),
@@ -167,6 +168,9 @@ CATALOGUE: dict[str, Entry] = {
     "20985": Entry("error", "#SUPPRESS OFFSETS is not allowed with G91."),
     "21143": Entry("warning", "A change of plane switched the contour rotation off."),
     "21234": Entry("error", "Too many coordinate systems are defined."),
+    "21556": Entry("error", "A main axis of a coordinate system is a modulo axis."),
+    "21599": Entry("error", "The name of a coordinate system is in use."),
+    "21601": Entry("error", "The name of a coordinate system is unknown."),
     "22156": Entry("error", "The third main axis cannot stand in a block with G68."),
     # Axis exchange and messages
     "20312": Entry("error", "The axis number is unknown."),
@@ -209,6 +213,8 @@ CATALOGUE: dict[str, Entry] = {
     "N2027": Entry("error", "G74 needs at least one axis."),
     "N2028": Entry("error", "A correction of the tool length is active already."),
     "N2040": Entry("error", "The axis of #TLAX is no main axis."),
+    "N2050": Entry("error", "#ECS needs the tool direction of an active transformation."),
+    "N2051": Entry("error", "A system of #CS ON lies between the stack and the machine system."),
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),

@@ -60,7 +60,7 @@ class Level:
     kind: str
     frame: Frame
     offsets: tuple[tuple[str, Offset], ...] = ()
-    id: int = 0
+    id: int | str = 0
     temporary: bool = False
     origin: str | None = None
 
@@ -243,6 +243,12 @@ class Coordinates:
             length = tool.length if self.kinematics is not None else 0.0
             tool = replace(tool, axis_offsets=(), length=length)
         return replace(self, levels=levels, tool=tool)
+
+    def at_level(self, k: int) -> Coordinates:
+        """The chain as it ends at level `k`: program values are those of that level, not scaled,
+        turned or mirrored."""
+        contour = Contour(mirror_shift=self.contour.mirror_shift)
+        return replace(self, levels=self.levels[: k + 1], contour=contour)
 
     # --- parts ---------------------------------------------------------------------------------
 

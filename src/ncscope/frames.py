@@ -93,3 +93,39 @@ def sequence_rotation(angles: ArrayLike, sequence: str = "ZYX", fixed: bool = Fa
     ]
     first, second, third = turns
     return third @ second @ first if fixed else first @ second @ third
+
+
+def tilt(direction: ArrayLike) -> Array:
+    """The smallest rotation (3, 3) that turns Z into a unit vector (3,); against Z it is half a
+    turn about X."""
+    d = np.asarray(direction, dtype=float)
+    axis = np.cross([0.0, 0.0, 1.0], d)
+    sine2, cosine = float(axis @ axis), float(d[2])
+    if sine2 < 1e-30:
+        return np.diag([1.0, 1.0, 1.0] if cosine > 0.0 else [1.0, -1.0, -1.0])
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    # 1 / (1 + cosine), written so that it keeps its digits near the opposite of Z
+    factor = 1.0 / (1.0 + cosine) if cosine > 0.0 else (1.0 - cosine) / sine2
+    return np.eye(3) + cross + factor * (cross @ cross)
+
+
+def axes_in_plane(direction: ArrayLike, kind: str, plane: str) -> Array:
+    """Rotation (3, 3) that turns Z into a unit vector (3,) and lays X or Y (`kind`) into a plane.
+
+    plane: `XY`, `ZX` or `YZ`. The remaining axis lies on the same side of the plane as Z. Where
+    `direction` is perpendicular to the plane the smallest rotation is taken.
+    Source: P-CHAN-00031, P-CHAN-00050.
+    """
+    z = np.asarray(direction, dtype=float)
+    normal = np.zeros(3)
+    normal[{"XY": 2, "ZX": 1, "YZ": 0}[plane]] = 1.0
+    in_plane = np.cross(normal, z)
+    length = np.linalg.norm(in_plane)
+    if length < 1e-12:
+        return tilt(z)
+    side = 1.0 if normal @ z >= 0.0 else -1.0
+    first = side * in_plane / length
+    if kind == "X":
+        return np.column_stack([first, np.cross(z, first), z])
+    return np.column_stack([np.cross(-first, z), -first, z])

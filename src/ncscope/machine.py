@@ -115,6 +115,19 @@ class ChannelSettings:
     rotation_fixed: bool = False  # P-CHAN-00393
     offsets_per_level: bool = True  # P-CHAN-00397
     direction_turns: bool = False  # P-CHAN-00247 ori_wcs
+    ecs_axis: str = ""  # P-CHAN-00031 kind_of_2nd_ecs_ax
+    ecs_plane: str = ""  # P-CHAN-00050 mach_plane_of_2nd_ecs_ax
+
+
+@dataclass(frozen=True, slots=True)
+class ConfiguredSystem:
+    """A coordinate system of the channel list (P-CHAN-00490 to P-CHAN-00496).
+
+    values: shift in mm, angles in degrees.
+    """
+
+    values: tuple[float, ...]
+    origin: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +138,7 @@ class Machine:
     axis lists describe or the channel lists, by logical number: `#SET AX` fetches from them; when
     it is empty any number may be fetched. `kinematic_parameters`: by kinematic id.
     `kinematic_types`: what makes a kinematics of a data set, by type number; 91 is built in.
+    `systems`: the configured coordinate systems by their id, for #CS, #ACS and #BCS alike.
     """
 
     name: str = "XYZ"
@@ -136,6 +150,7 @@ class Machine:
     kinematic_parameters: Mapping[int, KinematicParameters] = field(default_factory=dict)
     settings: ChannelSettings = ChannelSettings()
     kinematic_types: Mapping[int, Builder] = field(default_factory=dict)
+    systems: Mapping[int | str, ConfiguredSystem] = field(default_factory=dict)
 
     @property
     def axis_names(self) -> tuple[str, ...]:

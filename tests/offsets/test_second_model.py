@@ -24,6 +24,9 @@ def turn(axis, angle):
     return matrix
 
 
+ORDER = ("BCS", "ACS", "CS", "named")
+
+
 class Model:
     def __init__(self):
         self.scale = np.ones(3)
@@ -32,6 +35,9 @@ class Model:
         self.g92 = [np.zeros(3)]
         self.pset = [np.zeros(3)]
         self.frames = [np.eye(4)]
+        self.kinds = ["base"]
+        self.named = []
+        self.selected = 0
         self.a = np.zeros(3)
 
     def contour(self):
@@ -71,21 +77,52 @@ class Model:
         change()
         self.a = (np.linalg.inv(self.machine_from_top()) @ [*machine, 1.0])[:3]
 
-    def push(self, v, f):
-        self.frames.append(shift(v) @ turn(2, f[2]) @ turn(1, f[1]) @ turn(0, f[0]))
-        self.g92.append(np.zeros(3))
-        self.pset.append(np.zeros(3))
+    def push(self, kind, frame):
+        rank = ORDER.index(kind)
+        at = 1 + sum(ORDER.index(k) <= rank for k in self.kinds[1:])
+        rows = ((self.frames, frame), (self.kinds, kind), (self.g92, np.zeros(3)))
+        for stack, item in (*rows, (self.pset, np.zeros(3))):
+            stack.insert(at, item)
 
-    def pop(self):
-        for stack in (self.frames, self.g92, self.pset):
-            stack.pop()
+    def pop(self, kind):
+        at = max(k for k, other in enumerate(self.kinds) if other == kind)
+        for stack in (self.frames, self.kinds, self.g92, self.pset):
+            stack.pop(at)
+
+    def select(self, count):
+        while self.selected > count:
+            self.selected -= 1
+            self.pop("named")
+        while self.selected < count:
+            self.push("named", self.named[self.selected])
+            self.selected += 1
+
+    def set_named(self, k, frame):
+        self.named[k] = frame
+        if k < self.selected:
+            self.frames[len(self.frames) - self.selected + k] = frame
+
+    def track(self, k, target):
+        """The frame that makes the machine position read `target` in named system k."""
+        at = len(self.frames) - self.selected + k
+        frames = [*self.frames, *self.named[self.selected :]]
+        offsets = [self.offset(i) if i < len(self.frames) else np.zeros(3) for i in range(at + 1)]
+        below = np.eye(4)
+        for i in range(1, at + 1):
+            below = below @ shift(offsets[i - 1]) @ (frames[i] if i < at else np.eye(4))
+        if at == len(self.frames) - 1:
+            target = (self.contour() @ [*target, 1.0])[:3]
+        frame = frames[at].copy()
+        tip = np.linalg.inv(below) @ [*self.machine(), 1.0]
+        frame[:3, 3] = tip[:3] - frame[:3, :3] @ (offsets[at] + target)
+        return frame
 
     def preset(self, axis, value):
         self.pset[-1] = self.pset[-1].copy()
         self.pset[-1][axis] += self.scale[axis] * (self.shown()[axis] - value)
 
 
-def random_program(seed, blocks=40):
+def random_program(seed, blocks=60):
     """Lines of a program and the machine position after each motion, from the model."""
     rng = np.random.default_rng(seed)
     model, lines, expected = Model(), [], []
@@ -162,16 +199,55 @@ def random_program(seed, blocks=40):
         model.preset(axis, value)
         lines.append(f"#PSET {'XYZ'[axis]}{value}")
 
-    def system():
-        if len(model.frames) > 3:
-            model.relevel(model.pop)
-            lines.append("#CS OFF")
-            return
+    def values():
         v, f = [number() for _ in range(3)], [number(-180, 180) for _ in range(3)]
-        model.relevel(lambda: model.push(v, f))
-        lines.append("#CS ON [" + ",".join(map(str, [*v, *f])) + "]")
+        frame = shift(v) @ turn(2, f[2]) @ turn(1, f[1]) @ turn(0, f[0])
+        return "[" + ",".join(map(str, [*v, *f])) + "]", frame
 
-    choices = [rotation, rotation_off, change_plane, mirror, g351, g92, scale, preset, system]
+    def system():
+        kind = str(rng.choice(["CS", "CS", "ACS", "BCS"]))
+        if model.kinds.count(kind) > 1:
+            model.relevel(lambda: model.pop(kind))
+            lines.append(f"#{kind} OFF")
+            return
+        text, frame = values()
+        model.relevel(lambda: model.push(kind, frame))
+        lines.append(f"#{kind} ON {text}")
+
+    def add():
+        if len(model.named) < 4:
+            text, frame = values()
+            lines.append(f"#CS ADD [S{len(model.named)}] {text}")
+            model.named.append(frame)
+
+    def select():
+        if model.named:
+            k = int(rng.integers(len(model.named)))
+            model.relevel(lambda: model.select(k + 1))
+            lines.append(f"#CS SELECT [S{k}]")
+
+    def change():
+        if not model.named:
+            return
+        k = int(rng.integers(len(model.named)))
+        if rng.integers(2):
+            text, frame = values()
+            lines.append(f"#CS SET [S{k}] {text}")
+        else:
+            target = [number() for _ in range(3)]
+            frame = model.track(k, target)
+            lines.append(f"#CS TRACK [S{k}] [{','.join(map(str, target))}]")
+        model.relevel(lambda: model.set_named(k, frame))
+
+    def delete():
+        if model.named and not rng.integers(4):
+            below = min(model.selected, len(model.named) - 1)
+            model.relevel(lambda: model.select(below))
+            model.named.pop()
+            lines.append("#CS DEL")
+
+    choices = [rotation, rotation_off, change_plane, mirror, g351, g92, scale, preset]
+    choices += [system, add, select, change, delete]
     for _ in range(blocks):
         motion()
         choices[rng.integers(len(choices))]()

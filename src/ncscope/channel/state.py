@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from ncscope.contour import Turn
 from ncscope.coordinates import Coordinates
-from ncscope.frames import Array
+from ncscope.frames import Array, Frame
 from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.machine import Axis, Tool, ZeroOffsets
 
@@ -48,14 +48,23 @@ class Position:
 class SystemDefinition:
     """A stored `#CS DEF`: shift mm and angles degrees, relative to the level it is used on.
 
-    kind: `#CS`, `#ACS` or `#BCS`; each counts its own ids.
+    kind: `#CS`, `#ACS` or `#BCS`; each counts its own ids. id: a number or a name.
     """
 
     kind: str
-    id: int
+    id: int | str
     values: tuple[float, ...]
     origin: str
     temporary: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class NamedSystem:
+    """A system of the stack of #CS ADD. frame: the system below from this one."""
+
+    name: str
+    frame: Frame
+    origin: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +144,7 @@ class State:
     length_axis: None lets the tool length follow the plane. variables: `P5`, `V.P.NAME` -> value.
     definitions: stored coordinate systems by kind (`#CS`, `#ACS`, `#BCS`) and id, in the order of
     their definition.
+    systems: the stack of #CS ADD from bottom to top; selected: how many of them act.
     parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
     values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
     #MCS is on. measured: what G100 measured, by axis name.
@@ -153,7 +163,9 @@ class State:
     zero_index: int = 0
     clamp_index: int = 0
     variables: Mapping[str, Stored] = field(default_factory=dict)
-    definitions: Mapping[tuple[str, int], SystemDefinition] = field(default_factory=dict)
+    definitions: Mapping[tuple[str, int | str], SystemDefinition] = field(default_factory=dict)
+    systems: tuple[NamedSystem, ...] = ()
+    selected: int = 0
     macros: Mapping[str, str] = field(default_factory=dict)
     parked: Mapping[int, float] = field(default_factory=dict)
     turn: Turn = field(default_factory=Turn)

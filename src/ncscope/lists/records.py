@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Any
 
 from ncscope.diagnostics import Diagnostic, diagnostic
@@ -34,8 +35,11 @@ SETTINGS_OF_KEYS = {
     "coordinate_system.rotation_sequence": "rotation_sequence",
     "coordinate_system.rotation_mode_fixed": "rotation_fixed",
     "coordinate_system.axes_offsets_layer_specific": "offsets_per_level",
+    "kind_of_2nd_ecs_ax": "ecs_axis",
+    "mach_plane_of_2nd_ecs_ax": "ecs_plane",
 }
 """List keys of the channel settings and their names in `ChannelSettings`."""
+ECS_WORDS = {"ecs_axis": ("X", "Y"), "ecs_plane": ("XY", "ZX", "YZ")}
 
 
 def zero_offsets(readings: Iterable[Reading]) -> ZeroOffsets:
@@ -98,6 +102,11 @@ def channel_settings(
         if name == "rotation_sequence" and reading.value not in ROTATION_SEQUENCES:
             found.append(_bad_sequence(reading))
             continue
+        if name in ECS_WORDS:
+            reading = replace(reading, value=str(reading.value).upper())
+            if reading.value not in ECS_WORDS[name]:
+                found.append(_bad_ecs_word(reading, ECS_WORDS[name]))
+                continue
         default = getattr(ChannelSettings(), name)
         values[name] = type(default)(reading.value)
     return ChannelSettings(**values), tuple(found)
@@ -165,3 +174,9 @@ def _bad_sequence(reading: Reading) -> Diagnostic:
     message = f"{reading.entry.key} ({reading.row.id}): {reading.value} is no rotation sequence"
     hint = "write one of " + " ".join(sorted(ROTATION_SEQUENCES))
     return diagnostic("22190", reading.entry.value_span, message, hint)
+
+
+def _bad_ecs_word(reading: Reading, words: tuple[str, ...]) -> Diagnostic:
+    message = f"{reading.entry.key} ({reading.row.id}): {reading.value} is not allowed"
+    hint = "write one of " + " ".join(words)
+    return diagnostic("110552", reading.entry.value_span, message, hint)

@@ -8,11 +8,14 @@ from ncscope.channel import manual
 from ncscope.channel.commands import (
     axes,
     contour,
+    effector_system,
     length_axis,
     length_correction,
     machine_system,
     messages,
+    named_systems,
     preset,
+    system_mode,
     systems,
     transformation,
 )
@@ -20,6 +23,9 @@ from ncscope.channel.commands import declarations as declared
 
 COMMANDS = {
     **systems.COMMANDS,
+    **system_mode.COMMANDS,
+    **named_systems.COMMANDS,
+    **effector_system.COMMANDS,
     **preset.COMMANDS,
     **machine_system.COMMANDS,
     **length_correction.COMMANDS,

@@ -1,0 +1,7 @@
+N10 #CS ADD [A1] [1,0,0]
+N20 #CS ADD [A2] [2,0,0]
+N30 #CS ADD [A3] [3,0,0]
+N40 #CS ADD [A4] [4,0,0]
+N50 #CS ADD [A5] [5,0,0]
+N60 #CS ADD [A6] [6,0,0]
+N70 M30

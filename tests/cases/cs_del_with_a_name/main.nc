@@ -1,0 +1,3 @@
+N10 #CS ADD [A] [1,0,0]
+N20 #CS DEL [A]
+N30 M30

@@ -1,0 +1,3 @@
+N10 #CS ADD [PCS] [1,0,0]
+N20 #CS SELECT [pcs]
+N30 M30

@@ -1,0 +1,3 @@
+N10 #KIN ID [91]
+N20 #ECS ON
+N30 M30
