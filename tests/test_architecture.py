@@ -22,6 +22,7 @@ LAYERS = (
     "diagnostics compilation",
     "frames",
     "kinematics language contour",
+    "levels",
     "coordinates",
     "machine",
     "motion",

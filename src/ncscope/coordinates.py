@@ -22,83 +22,18 @@ from numpy.typing import ArrayLike
 from ncscope.contour import NO_CONTOUR, Contour
 from ncscope.frames import Array, Frame
 from ncscope.kinematics.step import KinematicsError, KinematicStep, Pose
+from ncscope.levels import BASE_LEVEL, NO_TOOL, OFFSET_KINDS, ActiveTool, Level, Offset
 
-OFFSET_KINDS = ("zero", "g92", "pset", "clamp", "measure")
-"""Kinds of offset a level can hold, in the order in which they are reported."""
-
-
-@dataclass(frozen=True)
-class Offset:
-    """One kind of offset in one level.
-
-    values: by channel axis, mm and degrees. name: as the report shows it (`G54`). origins: the
-    place that set the value of each axis (`nullp.lis:14`), None where nothing did.
-    """
-
-    name: str
-    values: tuple[float, ...]
-    origins: tuple[str | None, ...]
-    selected_at: str | None = None
-
-    @property
-    def origin(self) -> str | None:
-        """The places that set it, each once; the selecting block when no value has a place."""
-        places = list(dict.fromkeys(o for o in self.origins if o))
-        return ", ".join(places) or self.selected_at
-
-
-@dataclass(frozen=True)
-class Level:
-    """One coordinate system with the offsets that were programmed in it.
-
-    frame: the level below from this level (`#CS DEF`). offsets: kind -> Offset; they act along
-    the axes of this level and go when the level goes. `temporary`: the definition is deleted at
-    #CS OFF. Level 0 is the workpiece system with the identity as its frame.
-    """
-
-    name: str
-    kind: str
-    frame: Frame
-    offsets: tuple[tuple[str, Offset], ...] = ()
-    id: int | str = 0
-    temporary: bool = False
-    origin: str | None = None
-
-    def offset(self, kind: str) -> Offset | None:
-        return dict(self.offsets).get(kind)
-
-    def with_offset(self, kind: str, offset: Offset | None) -> Level:
-        held = {k: o for k, o in self.offsets if k != kind}
-        if offset is not None:
-            held[kind] = offset
-        order = sorted(held.items(), key=lambda pair: OFFSET_KINDS.index(pair[0]))
-        return replace(self, offsets=tuple(order))
-
-    def total(self, n: int, contour: Contour = NO_CONTOUR) -> Array:
-        """Sum of the offsets by channel axis, mm and degrees; G351 mirrors G92."""
-        total = np.zeros(n)
-        for kind, offset in self.offsets:
-            total += contour.shift(kind, offset.values)
-        return total
-
-
-BASE_LEVEL = Level("workpiece", "base", Frame("level 0", "level 0"))
-
-
-@dataclass(frozen=True)
-class ActiveTool:
-    """The tool as it acts on positions.
-
-    length: mm. axis_offsets: by channel axis, mm or degrees; they are subtracted.
-    direction: unit vector from the mount to the tip, in the axes the tool lies along.
-    fixed: the tool stays along machine axes even in a turned coordinate system (P-TOOL-00010).
-    """
-
-    length: float = 0.0
-    axis_offsets: tuple[float, ...] = ()
-    direction: tuple[float, float, float] = (0.0, 0.0, -1.0)
-    fixed: bool = False
-    origin: str | None = None
+__all__ = [
+    "BASE_LEVEL",
+    "OFFSET_KINDS",
+    "ActiveKinematics",
+    "ActiveTool",
+    "Coordinates",
+    "Layer",
+    "Level",
+    "Offset",
+]
 
 
 @dataclass(frozen=True)
@@ -134,7 +69,7 @@ class Coordinates:
 
     axis_count: int
     levels: tuple[Level, ...] = (BASE_LEVEL,)
-    tool: ActiveTool = ActiveTool()
+    tool: ActiveTool = NO_TOOL
     kinematics: ActiveKinematics | None = None
     contour: Contour = NO_CONTOUR
     program_step: ActiveKinematics | None = None
@@ -245,10 +180,11 @@ class Coordinates:
         return replace(self, levels=levels, tool=tool)
 
     def at_level(self, k: int) -> Coordinates:
-        """The chain as it ends at level `k`: program values are those of that level, not scaled,
-        turned or mirrored."""
+        """The chain as it ends at level `k`: program values are those of that level, not mapped,
+        scaled, turned or mirrored."""
         contour = Contour(mirror_shift=self.contour.mirror_shift)
-        return replace(self, levels=self.levels[: k + 1], contour=contour)
+        levels = self.levels[: k + 1]
+        return replace(self, levels=levels, contour=contour, program_step=None)
 
     # --- parts ---------------------------------------------------------------------------------
 

@@ -75,13 +75,12 @@ def track(draft: Draft, command: tree.HashCommand) -> None:
     target = _point(draft, command.groups[1], form)
     system = draft.state.systems[k]
     chain = whole_stack(draft)
-    place = len(chain.levels) - len(draft.state.systems) + k
-    top = place == len(draft.state.coordinates.levels) - 1
     coordinates = draft.state.coordinates
-    if top:  # the position reads what the program would write
+    place = len(chain.levels) - len(draft.state.systems) + k
+    if place == len(coordinates.levels) - 1:  # the position reads what the program would write
         shown = np.array(draft.state.position.program)
         shown[:3] = target
-        target = coordinates.contour.apply(shown)[:3]
+        target = chain.at_level(place).program_from_mcs(coordinates.to_mcs(shown))[:3]
     tip = coordinates.mcs_from_axes(draft.state.position.axes)
     below = chain.at_level(place - 1).program_from_mcs(tip)[:3]
     own = chain.levels[place].total(coordinates.axis_count, coordinates.contour)[:3]

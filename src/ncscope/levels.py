@@ -1,0 +1,93 @@
+"""What a chain is made of besides its kinematics: offsets, levels and the tool.
+
+Values are by channel axis, mm and degrees. Only `coordinates` adds them up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ncscope.contour import NO_CONTOUR, Contour
+from ncscope.frames import Array, Frame
+
+OFFSET_KINDS = ("zero", "g92", "pset", "clamp", "measure")
+"""Kinds of offset a level can hold, in the order in which they are reported."""
+
+
+@dataclass(frozen=True)
+class Offset:
+    """One kind of offset in one level.
+
+    values: by channel axis, mm and degrees. name: as the report shows it (`G54`). origins: the
+    place that set the value of each axis (`nullp.lis:14`), None where nothing did.
+    """
+
+    name: str
+    values: tuple[float, ...]
+    origins: tuple[str | None, ...]
+    selected_at: str | None = None
+
+    @property
+    def origin(self) -> str | None:
+        """The places that set it, each once; the selecting block when no value has a place."""
+        places = list(dict.fromkeys(o for o in self.origins if o))
+        return ", ".join(places) or self.selected_at
+
+
+@dataclass(frozen=True)
+class Level:
+    """One coordinate system with the offsets that were programmed in it.
+
+    frame: the level below from this level (`#CS DEF`). offsets: kind -> Offset; they act along
+    the axes of this level and go when the level goes. `temporary`: the definition is deleted at
+    #CS OFF. Level 0 is the workpiece system with the identity as its frame.
+    """
+
+    name: str
+    kind: str
+    frame: Frame
+    offsets: tuple[tuple[str, Offset], ...] = ()
+    id: int | str = 0
+    temporary: bool = False
+    origin: str | None = None
+
+    def offset(self, kind: str) -> Offset | None:
+        return dict(self.offsets).get(kind)
+
+    def with_offset(self, kind: str, offset: Offset | None) -> Level:
+        held = {k: o for k, o in self.offsets if k != kind}
+        if offset is not None:
+            held[kind] = offset
+        order = sorted(held.items(), key=lambda pair: OFFSET_KINDS.index(pair[0]))
+        return replace(self, offsets=tuple(order))
+
+    def total(self, n: int, contour: Contour = NO_CONTOUR) -> Array:
+        """Sum of the offsets by channel axis, mm and degrees; G351 mirrors G92."""
+        total = np.zeros(n)
+        for kind, offset in self.offsets:
+            total += contour.shift(kind, offset.values)
+        return total
+
+
+BASE_LEVEL = Level("workpiece", "base", Frame("level 0", "level 0"))
+
+
+@dataclass(frozen=True)
+class ActiveTool:
+    """The tool as it acts on positions.
+
+    length: mm. axis_offsets: by channel axis, mm or degrees; they are subtracted.
+    direction: unit vector from the mount to the tip, in the axes the tool lies along.
+    fixed: the tool stays along machine axes even in a turned coordinate system (P-TOOL-00010).
+    """
+
+    length: float = 0.0
+    axis_offsets: tuple[float, ...] = ()
+    direction: tuple[float, float, float] = (0.0, 0.0, -1.0)
+    fixed: bool = False
+    origin: str | None = None
+
+
+NO_TOOL = ActiveTool()
