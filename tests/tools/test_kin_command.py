@@ -179,3 +179,61 @@ def test_a_kinematics_that_cannot_be_used_names_the_line_of_the_list() -> None:
     result = call("forward", "X=1", "-m", MACHINES / "ac_table_as_printed")
     assert result.exit_code == 1
     assert "N3009" in result.stderr and ".lis:" in result.stderr
+
+
+# --- compare -----------------------------------------------------------------------------------
+
+
+def skewed(tmp_path: Path) -> tuple[Path, Path]:
+    """The head of the examples, and the same with X along (1, 0, -0.001)."""
+    text = (HEAD / "sda.lis").read_text()
+    for name, value in (("a", "0"), ("b", "-0.001")):
+        (tmp_path / name).mkdir()
+        changed = text.replace("axis[0].orientation[2] 0", f"axis[0].orientation[2] {value}")
+        (tmp_path / name / "sda.lis").write_text(changed)
+    return tmp_path / "a", tmp_path / "b"
+
+
+def test_compare_shows_what_compensation_does(tmp_path: Path) -> None:
+    a, b = skewed(tmp_path)
+    result = call("compare", a, b, "--grid", "X=-100:300:3", "--format", "jsonl")
+    found = {r["quantity"]: r for r in map(json.loads, result.stdout.splitlines())}
+    # Axis value X at tip X 300: 300 - 1.2 of the flange. Off by 0.001 of it in Z.
+    assert found["tip before"]["largest"] == pytest.approx(0.2988, abs=1e-6)
+    assert found["tip before"]["worst"]["X"] == 300
+    assert found["tip after"]["largest"] == pytest.approx(0, abs=1e-9)
+    assert found["axis Z"]["largest"] == pytest.approx(0.2988, abs=1e-6)
+    assert found["axis C"]["largest"] == 0
+    # rms of 101.2, 98.8 and 298.8 thousandths: sqrt((10241.4 + 9761.4 + 89281.4) / 3) / 1000.
+    assert found["axis Z"]["rms"] == pytest.approx(0.190862, abs=1e-6)
+
+
+def test_compare_pose_by_pose(tmp_path: Path) -> None:
+    a, b = skewed(tmp_path)
+    Path("p.csv").write_text("X,Y,Z,C,A\n101.2,0,0,0,0\n1.2,0,0,0,0\n")
+    found = rows(call("compare", a, b, "--poses", "p.csv", "--format", "csv"))
+    assert [float(r["tip_before_Z"]) for r in found] == pytest.approx([-0.1, 0], abs=1e-6)
+    table = call("compare", a, b, "--poses", "p.csv", "--rows").stdout
+    assert "101.2000" in table and "tool tip, computed with A, on machine B" in table
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([HEAD, HEAD], "which poses?"),
+        ([HEAD, HEAD, "--grid", "X=1:2"], "write FROM:TO:COUNT"),
+        ([HEAD, HEAD, "--grid", "X=1:2:2.5"], "write FROM:TO:COUNT"),
+        ([HEAD, HEAD, "--grid", "X=1:2:0"], "write FROM:TO:COUNT"),
+        ([HEAD, HEAD, "--grid", "Q=1"], "with a name of X Y Z C A"),
+        ([HEAD, HEAD, "--grid", "X=1:2:1001", "Y=1:2:1000"], "at most 1000000"),
+    ],
+)
+def test_compare_says_what_is_missing(arguments: list[str | Path], said: str) -> None:
+    result = call("compare", *arguments)
+    assert result.exit_code == 2
+    assert said in " ".join(result.stderr.split())
+
+
+def test_compare_of_different_axes() -> None:
+    result = call("compare", HEAD, MACHINES / "spline_linkage", "--grid", "X=0:1:2")
+    assert result.exit_code == 1 and "292040" in result.stderr

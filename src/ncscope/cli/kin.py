@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import sys
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ncscope.cli.compare import compare_command
+from ncscope.cli.kin_options import (
+    FormatOption,
+    IdOption,
+    LengthOption,
+    OutOption,
+    PosesOption,
+    output_form,
+)
 from ncscope.cli.kinematics import chosen_kinematics
 from ncscope.cli.options import MachineOption
 from ncscope.cli.pose_input import near_values, poses_file, word_row
@@ -23,26 +31,10 @@ if TYPE_CHECKING:
 kin_app = typer.Typer(
     no_args_is_help=True, help="Axis values and tool poses through a machine's kinematics."
 )
-
-
-class KinFormat(StrEnum):
-    """How poses are written."""
-
-    TABLE = "table"
-    JSONL = "jsonl"
-    CSV = "csv"
+kin_app.command("compare", cls=WordsCommand)(compare_command)
 
 
 Words = Annotated[list[str] | None, typer.Argument(metavar="[X=.. Y=..]", show_default=False)]
-IdOption = Annotated[
-    int | None, typer.Option("--id", help="Kinematic id; needed where there are several.")
-]
-LengthOption = Annotated[float, typer.Option("--tool-length", help="Tool length, mm.")]
-PosesOption = Annotated[
-    Path | None, typer.Option("--poses", help="CSV or Parquet file with a column for each axis.")
-]
-FormatOption = Annotated[KinFormat | None, typer.Option("--format", help="table, jsonl or csv.")]
-OutOption = Annotated[Path | None, typer.Option("--out", help="File: .csv, .jsonl or .parquet.")]
 NearOption = Annotated[
     list[str] | None,
     typer.Option("--near", metavar="A=.. C=..", help="Axis values nearby; they choose the pose."),
@@ -65,7 +57,7 @@ def forward_command(
     """Where the tool is for given axis values (mm, degrees)."""
     from ncscope.kinematics.poses import poses_of_axes
 
-    shape = _format(format, out, poses)
+    shape = output_form(format, out, poses)
     kin = chosen_kinematics(machine, id)
     given = [*(words or []), *(axes or [])]
     if poses is not None:
@@ -102,7 +94,7 @@ def inverse_command(
     from ncscope.kinematics import KinematicsError
     from ncscope.kinematics.poses import poses_of_program, poses_of_tool
 
-    shape = _format(format, out, poses)
+    shape = output_form(format, out, poses)
     kin = chosen_kinematics(machine, id)
     given = [*(words or []), *(program or [])]
     start = near_values(near, kin.axis_names)
@@ -141,18 +133,6 @@ def _tool(
 def _one_source(several: bool) -> None:
     if several:
         fail("give one of words, --tip with --direction, and --poses")
-
-
-def _format(format: KinFormat | None, out: Path | None, poses: Path | None) -> str:
-    """The form of the output: that of --format, else of the file's name."""
-    if out is None:
-        return str(format or KinFormat.TABLE)
-    if poses is not None and out.exists() and poses.exists() and out.samefile(poses):
-        fail(f"--out {out} is the table that is read")
-    shape = str(format) if format else out.suffix.lower().removeprefix(".")
-    if shape not in ("csv", "jsonl", "parquet"):
-        fail(f"--out {out}: name it .csv, .jsonl or .parquet, or give --format csv or jsonl")
-    return shape
 
 
 def _write(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +11,14 @@ from typing import TYPE_CHECKING
 import typer
 
 from ncscope.cli.screen import fail, show_diagnostics
-from ncscope.cli.words import read_words
+from ncscope.cli.words import read_number, read_words
 
 if TYPE_CHECKING:
     from ncscope.frames import Array
     from ncscope.loading.pose_tables import PoseTable
 
 TIP = ("mcs_X", "mcs_Y", "mcs_Z")
+MOST_POSES = 1_000_000
 DIRECTION = ("direction_i", "direction_j", "direction_k")
 
 
@@ -33,6 +35,34 @@ def word_row(words: Sequence[str], names: Sequence[str], what: str) -> Array:
 def near_values(words: Sequence[str] | None, names: Sequence[str]) -> Array | None:
     """The axis values of --near (n_channel,), None without the option."""
     return None if not words else word_row(words, names, "--near")[0]
+
+
+def grid_rows(words: Sequence[str], names: Sequence[str]) -> Array:
+    """Every combination of `X=FROM:TO:COUNT` words; axes that are not named are 0."""
+    import numpy as np
+
+    spans: dict[str, Array] = {}
+    for word in words:
+        name, _, text = word.partition("=")
+        if name not in names:
+            fail(f"--grid {word}: write NAME=FROM:TO:COUNT with a name of {' '.join(names)}")
+        if name in spans:
+            fail(f"--grid: {name} stands twice")
+        parts = [read_number(part, f"--grid {word}") for part in text.split(":")]
+        if len(parts) not in (1, 3) or (len(parts) == 3 and not _is_count(parts[2])):
+            fail(f"--grid {word}: write FROM:TO:COUNT, such as {name}=-100:100:5, or one value")
+        spans[name] = (
+            np.linspace(parts[0], parts[1], int(parts[2])) if parts[1:] else np.array(parts)
+        )
+    total = math.prod(len(span) for span in spans.values())
+    if total > MOST_POSES:
+        fail(f"--grid has {total} poses; at most {MOST_POSES} are compared")
+    axes = np.meshgrid(*(spans.get(name, np.zeros(1)) for name in names), indexing="ij")
+    return np.stack([axis.reshape(-1) for axis in axes], axis=1)
+
+
+def _is_count(value: float) -> bool:
+    return value == int(value) and 1 <= value <= MOST_POSES
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,96 @@
+"""`ncscope kin compare`: two machines for the same programmed poses."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ncscope.cli.kin_options import (
+    FormatOption,
+    IdOption,
+    LengthOption,
+    OutOption,
+    PosesOption,
+    output_form,
+)
+from ncscope.cli.kinematics import chosen_kinematics
+from ncscope.cli.pose_input import grid_rows, poses_file
+from ncscope.cli.screen import console, fail
+
+if TYPE_CHECKING:
+    from ncscope.kinematics.comparison import Comparison
+
+
+def compare_command(
+    first: Annotated[Path, typer.Argument(metavar="A", help="Machine of the control's data set.")],
+    second: Annotated[Path, typer.Argument(metavar="B", help="The real, measured machine.")],
+    poses: PosesOption = None,
+    grid: Annotated[
+        list[str] | None,
+        typer.Option("--grid", metavar="X=-100:100:5 ..", help="FROM:TO:COUNT or one value."),
+    ] = None,
+    rows: Annotated[bool, typer.Option("--rows", help="Every pose, not only the worst.")] = False,
+    id: IdOption = None,
+    tool_length: LengthOption = 0.0,
+    format: FormatOption = None,
+    out: OutOption = None,
+) -> None:
+    """How far machine B is from A at the tool tip and per axis, before and after compensation."""
+    from ncscope.kinematics import KinematicsError
+    from ncscope.kinematics.comparison import compare
+
+    shape = output_form(format, out, poses)
+    if shape == "parquet":
+        fail("kin compare writes csv or jsonl")
+    if (poses is None) == (not grid):
+        fail("which poses? give --poses FILE, or --grid X=-100:100:5 C=-180:180:7 ..")
+    a, b = chosen_kinematics(first, id), chosen_kinematics(second, id)
+    if poses is not None:
+        program = poses_file(poses).rows(a.axis_names, "pcs_")
+    else:
+        program = grid_rows(grid or (), a.axis_names)
+    try:
+        item = compare(a, b, program, tool_length)
+    except KinematicsError as error:
+        fail(f"{error.id}: {error.message}", code=1)
+    _write(shape, out, item, rows)
+
+
+def _write(shape: str, out: Path | None, item: Comparison, rows: bool) -> None:
+    from ncscope.views import comparison as view
+
+    if shape == "table":
+        terminal = console()
+        if rows:
+            terminal.print(view.differences_table(item))
+        terminal.print(view.comparison_table(item))
+        _say_unsolved(item)
+        return
+
+    def write(stream) -> None:
+        if shape == "csv":
+            view.write_comparison_csv(stream, item)
+        else:
+            view.write_comparison_jsonl(stream, item, rows)
+
+    if out is None:
+        write(sys.stdout)
+    else:
+        try:
+            with out.open("w", encoding="utf-8", newline="") as stream:
+                write(stream)
+        except OSError as error:
+            fail(f"cannot write {out}: {error.strerror}")
+    _say_unsolved(item)
+
+
+def _say_unsolved(item: Comparison) -> None:
+    import numpy as np
+
+    missing = int(np.isnan(item.axes).any(axis=1).sum())
+    if missing:
+        typer.echo(f"{missing} of {len(item)} poses have no solution on one machine", err=True)
+        raise typer.Exit(1)

@@ -1,0 +1,42 @@
+"""Options that the commands of `ncscope kin` share, and the form of their output."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ncscope.cli.screen import fail
+
+
+class KinFormat(StrEnum):
+    """How poses are written."""
+
+    TABLE = "table"
+    JSONL = "jsonl"
+    CSV = "csv"
+
+
+IdOption = Annotated[
+    int | None, typer.Option("--id", help="Kinematic id; needed where there are several.")
+]
+LengthOption = Annotated[float, typer.Option("--tool-length", help="Tool length, mm.")]
+PosesOption = Annotated[
+    Path | None, typer.Option("--poses", help="CSV or Parquet file with a column for each axis.")
+]
+FormatOption = Annotated[KinFormat | None, typer.Option("--format", help="table, jsonl or csv.")]
+OutOption = Annotated[Path | None, typer.Option("--out", help="File: .csv, .jsonl or .parquet.")]
+
+
+def output_form(format: KinFormat | None, out: Path | None, poses: Path | None) -> str:
+    """The form of the output: that of --format, else of the file's name."""
+    if out is None:
+        return str(format or KinFormat.TABLE)
+    if poses is not None and out.exists() and poses.exists() and out.samefile(poses):
+        fail(f"--out {out} is the table that is read")
+    shape = str(format) if format else out.suffix.lower().removeprefix(".")
+    if shape not in ("csv", "jsonl", "parquet"):
+        fail(f"--out {out}: name it .csv, .jsonl or .parquet, or give --format csv or jsonl")
+    return shape
