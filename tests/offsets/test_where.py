@@ -84,7 +84,7 @@ def test_command_line(tmp_path):
     rows = [line.split() for line in shown.stdout.splitlines()]
     # the block programs X10 Y5 Z2; the display has four decimals
     assert rows[2] == ["PCS", "10.0000", "5.0000", "2.0000", "30.0000", "20.0000"]
-    assert rows[4][:2] == ["MCS", "111.1602"] and rows[5][-1] == "0.9397"
+    assert rows[4][:2] == ["MCS", "111.1602"] and rows[6][0] == "dir" and rows[6][3] == "0.9397"
     found = json.loads(call("where", *machine, *given, "--at", f"{program}:6", "--format", "json")
                        .stdout)  # fmt: skip
     assert list(found) == ["file", "line", "block", "assumed", "pcs", "wcs", "mcs", "acs",

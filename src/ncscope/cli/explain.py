@@ -9,7 +9,7 @@ import typer
 
 from ncscope.cli.inputs import run_program
 from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels, read_place
-from ncscope.cli.screen import console, fail, show_diagnostics
+from ncscope.cli.screen import console, fail, show_diagnostics, show_table
 
 
 class ExplainFormat(StrEnum):
@@ -48,4 +48,4 @@ def explain_command(
         return
     terminal = console()
     terminal.print(f"{explanation.file}:{line}  {source.source.line_text(line)}", markup=False)
-    terminal.print(explain_table(explanation))
+    show_table(explain_table(explanation))

@@ -11,7 +11,7 @@ import typer
 
 from ncscope.cli.inputs import run_program
 from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels
-from ncscope.cli.screen import console, fail, show_diagnostics
+from ncscope.cli.screen import console, fail, show_diagnostics, show_table
 
 if TYPE_CHECKING:
     from ncscope.diagnostics import Diagnostic
@@ -102,7 +102,7 @@ def _show_run(result: Trajectory, ok: bool) -> None:
 
     terminal = console()
     if len(result):
-        terminal.print(run_table(result))
+        show_table(run_table(result))
     for message in result.messages:
         terminal.print(f"message  {message.text}", markup=False, highlight=False)
     status = "ok" if ok else "stopped by an error"

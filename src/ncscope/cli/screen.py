@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from rich.console import Console
+    from rich.table import Table
 
     from ncscope.diagnostics import Diagnostic
 
@@ -38,6 +39,16 @@ def console(stderr: bool = False) -> Console:
     stream = sys.stderr if stderr else sys.stdout
     width = None if stream.isatty() else 200
     return Console(stderr=stderr, width=width, highlight=False)
+
+
+def show_table(table: Table) -> None:
+    """A table in its whole width: a number that is cut off would be a wrong number."""
+    from rich.measure import Measurement
+
+    terminal = console()
+    wide = Measurement.get(terminal, terminal.options.update(width=1000), table).maximum
+    terminal.width = max(terminal.width, wide)
+    terminal.print(table)
 
 
 @contextmanager

@@ -11,7 +11,7 @@ import typer
 
 from ncscope.cli.inputs import run_program
 from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels, read_place
-from ncscope.cli.screen import console, fail, show_diagnostics
+from ncscope.cli.screen import console, fail, show_diagnostics, show_table
 
 
 class WhereFormat(StrEnum):
@@ -58,7 +58,7 @@ def where_command(
         return
     terminal = console()
     terminal.print(f"{place.file}:{line}  {source.source.line_text(line)}", markup=False)
-    terminal.print(where_table(place))
+    show_table(where_table(place))
     if place.assumed:
         names = " ".join(place.assumed)
         terminal.print(f"not given, as the block left it: {names}", markup=False)

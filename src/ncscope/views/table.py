@@ -1,8 +1,11 @@
-"""A run as a table for people: per move one row for each coordinate system that differs."""
+"""A run as a table for people: per move one row for each coordinate system that differs.
+
+The row `dir` is the tool direction (tip to flange, in the MCS) below X, Y and Z.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from rich.table import Table
@@ -23,28 +26,27 @@ def run_table(result: Trajectory, whole: bool = False) -> Table:
     table.add_column("", style="bold", no_wrap=True)
     for axis in result.axes:
         table.add_column(axis, justify="right", no_wrap=True)
-    directed = any(s.direction is not None for s in result.stretches)
-    if directed:
-        table.add_column("tool direction", justify="right", no_wrap=True)
     systems = _systems(result)
     count = len(result)
     hidden = 0 if whole or count <= FIRST + LAST else count - FIRST - LAST
-    for index, stretch, i in _rows(result):
-        if hidden and index == FIRST:
+    shown = (*range(FIRST), *range(count - LAST, count)) if hidden else range(count)
+    for index, stretch, i in _rows(result, shown):
+        if hidden and index == count - LAST:
             table.add_row("", "", "", "", f"... {hidden} more", style="dim")
-        if hidden and FIRST <= index < count - LAST:
-            continue
-        for cells in _cells(result.axes, stretch, i, systems, directed):
+        for cells in _cells(result.axes, stretch, i, systems):
             table.add_row(*cells)
     return table
 
 
-def _rows(result: Trajectory) -> Iterator[tuple[int, Stretch, int]]:
-    index = 0
+def _rows(result: Trajectory, shown: Iterable[int]) -> Iterator[tuple[int, Stretch, int]]:
+    """The moves with these indices, in rising order."""
+    wanted = iter(shown)
+    index, first = next(wanted, None), 0
     for stretch in result.stretches:
-        for i in range(len(stretch)):
-            yield index, stretch, i
-            index += 1
+        while index is not None and index < first + len(stretch):
+            yield index, stretch, index - first
+            index = next(wanted, None)
+        first += len(stretch)
 
 
 def _systems(result: Trajectory) -> tuple[str, ...]:
@@ -61,19 +63,17 @@ def _systems(result: Trajectory) -> tuple[str, ...]:
 
 
 def _cells(
-    axes: tuple[str, ...], s: Stretch, i: int, systems: tuple[str, ...], directed: bool
+    axes: tuple[str, ...], s: Stretch, i: int, systems: tuple[str, ...]
 ) -> Iterator[list[str]]:
+    """A row for each system, and one for the tool direction below X, Y and Z."""
     block = "" if s.block[i] == NO_BLOCK else str(s.block[i])
     feed = "" if np.isnan(s.feed[i]) else f"{s.feed[i]:g}"
     head = [str(s.line[i]), block, MOTIONS[s.motion[i]], feed]
     for k, system in enumerate(systems):
         values = getattr(s, system.lower())[i]
-        row = [*(head if k == 0 else [""] * 4), system, *_numbers(axes, s.axes, values)]
-        if directed:
-            row.append(
-                _vector(s.direction[i]) if system == "ACS" and s.direction is not None else ""
-            )
-        yield row
+        yield [*(head if k == 0 else [""] * 4), system, *_numbers(axes, s.axes, values)]
+    if s.direction is not None:
+        yield ["", "", "", "", "dir", *_numbers(axes, s.axes[:3], s.direction[i])]
 
 
 def _numbers(axes: tuple[str, ...], present: tuple[str, ...], values: Array) -> list[str]:
@@ -83,10 +83,6 @@ def _numbers(axes: tuple[str, ...], present: tuple[str, ...], values: Array) -> 
 def number(value: float) -> str:
     """Four decimals: the resolution of the control; never a negative zero."""
     return f"{value + 0.0:.4f}" if abs(value) >= 5e-5 else "0.0000"
-
-
-def _vector(direction: Array) -> str:
-    return " ".join(f"{number(c):>7}" for c in direction)
 
 
 def explain_table(item: Explanation) -> Table:
@@ -113,11 +109,8 @@ def where_table(item: Whereabouts) -> Table:
     table.add_column("", style="bold", no_wrap=True)
     for axis in item.axes:
         table.add_column(axis, justify="right", no_wrap=True)
-    if item.direction is not None:
-        table.add_column("tool direction", justify="right", no_wrap=True)
     for name in ("pcs", "wcs", "mcs", "acs"):
-        row = [name.upper(), *(number(v) for v in getattr(item, name))]
-        if item.direction is not None:
-            row.append(_vector(item.direction) if name == "acs" else "")
-        table.add_row(*row)
+        table.add_row(name.upper(), *(number(v) for v in getattr(item, name)))
+    if item.direction is not None:
+        table.add_row("dir", *(number(v) for v in item.direction))
     return table
