@@ -103,7 +103,9 @@ class Tool:
 class ChannelSettings:
     """Channel parameters that change what a program means."""
 
-    default_kinematic_id: int = 0  # P-CHAN-00032
+    default_kinematic_id: int = 0  # P-CHAN-00032, P-CHAN-00264 default_id_of_kin_step[0]
+    default_second_id: int = 0  # P-CHAN-00264 default_id_of_kin_step[1]
+    default_program_step_id: int = 0  # P-CHAN-00854 default_id_of_trafo_pcs
     orientation_mode: int = 0  # P-CHAN-00112 ori_rotation_angle
     tool_moves_at_once: bool = False  # P-CHAN-00100 move_tool_offsets_directly
     tool_with_t: bool = False  # P-CHAN-00014 einrechnen_mit_t
@@ -137,6 +139,8 @@ class Machine:
     `axes` are in channel order: index 0, 1, 2 are the main axes. `known_axes` are all axes that
     axis lists describe or the channel lists, by logical number: `#SET AX` fetches from them; when
     it is empty any number may be fetched. `kinematic_parameters`: by kinematic id.
+    `second_step_parameters`, `program_step_parameters`: the same for the second step of a
+    transformation (kin_step[1]) and for PCS transformations (trafo_pcs).
     `kinematic_types`: what makes a kinematics of a data set, by type number; 91 is built in.
     `systems`: the configured coordinate systems by their id, for #CS, #ACS and #BCS alike.
     """
@@ -149,6 +153,8 @@ class Machine:
     tools: Mapping[int, Tool] = field(default_factory=dict)
     kinematic_parameters: Mapping[int, KinematicParameters] = field(default_factory=dict)
     settings: ChannelSettings = ChannelSettings()
+    second_step_parameters: Mapping[int, KinematicParameters] = field(default_factory=dict)
+    program_step_parameters: Mapping[int, KinematicParameters] = field(default_factory=dict)
     kinematic_types: Mapping[int, Builder] = field(default_factory=dict)
     systems: Mapping[int | str, ConfiguredSystem] = field(default_factory=dict)
 

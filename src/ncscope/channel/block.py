@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ncscope.channel import tools
-from ncscope.channel.commands import COMMANDS, LAST
+from ncscope.channel.commands import COMMANDS, LAST, point_to_point
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
@@ -100,6 +100,7 @@ def _refuse_flow(draft: Draft, block: tree.Block) -> None:
 
 def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None:
     refuse_inside(draft, command)
+    point_to_point.refuse_inside(draft, command)
     refuse_path_condition(draft, command.name, block.words)
     row = lookup(command.name)
     if command.name in COMMANDS:

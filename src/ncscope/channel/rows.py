@@ -37,7 +37,7 @@ class Row(NamedTuple):
 
 def refuse_while_active(draft: Draft, ref: Reference) -> None:
     """Fails for a write that is not allowed while a transformation is active."""
-    if draft.state.coordinates.kinematics is not None:
+    if draft.state.kinematics.is_on:
         draft.fail(
             "21022",
             ref.span,

@@ -21,7 +21,7 @@ def start_state(machine: Machine, clamp_index: int | None = None) -> State:
         axes=machine.axes,
         coordinates=Coordinates(n),
         position=Position(zeros, zeros),
-        kinematics=Kinematics(machine.kinematic_parameters, machine.settings.default_kinematic_id),
+        kinematics=_kinematics(machine),
         zero_offsets=machine.zero_offsets,
         tools=machine.tools,
         length_axis=LengthAxis(2, 1.0) if machine.settings.tool_length_stays else None,
@@ -30,3 +30,15 @@ def start_state(machine: Machine, clamp_index: int | None = None) -> State:
         record: OffsetRecord = machine.clamp_positions[clamp_index]
         state = offsets.select_clamp(state, clamp_index, record)
     return offsets.select_zero(state, machine.zero_offsets.default_index, "program start")
+
+
+def _kinematics(machine: Machine) -> Kinematics:
+    """The data sets of the lists with the default ids (P-CHAN-00032, -00264, -00854)."""
+    settings = machine.settings
+    return Kinematics(
+        machine.kinematic_parameters,
+        ids=(settings.default_kinematic_id, settings.default_second_id),
+        second=machine.second_step_parameters,
+        program=machine.program_step_parameters,
+        program_id=settings.default_program_step_id,
+    )

@@ -11,6 +11,8 @@ from ncscope.frames import Array, Frame
 from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.machine import Axis, Tool, ZeroOffsets
 
+PROGRAM_STEP = -1
+"""Stands for the PCS transformation where the kinematic steps are numbered 0 and 1."""
 INCH = 25.4
 """Millimetres of an inch (G70)."""
 
@@ -92,10 +94,29 @@ class LengthAxis:
 
 @dataclass(frozen=True, slots=True)
 class Kinematics:
-    """The kinematic data sets with what the program wrote into them, and the preselected id."""
+    """The kinematic data sets with what the program wrote into them, and which are preselected.
+
+    parameters: of the first step, by id. second, program: those of the second step and of PCS
+    transformations. ids: preselected for the first and the second step, 0 for none. active: the
+    ids that are on. program_id: preselected for #TRAFO PCS. point_to_point: #PTP is on.
+    """
 
     parameters: Mapping[int, KinematicParameters]
-    selected: int
+    ids: tuple[int, int] = (0, 0)
+    active: tuple[int, int] = (0, 0)
+    second: Mapping[int, KinematicParameters] = field(default_factory=dict)
+    program: Mapping[int, KinematicParameters] = field(default_factory=dict)
+    program_id: int = 0
+    point_to_point: bool = False
+
+    @property
+    def is_on(self) -> bool:
+        """Whether a transformation is selected, also while #MCS suspends it."""
+        return self.active != (0, 0)
+
+    def sets(self, step: int) -> Mapping[int, KinematicParameters]:
+        """The data sets of step 0, step 1 or PROGRAM_STEP."""
+        return (self.parameters, self.second, self.program)[step]
 
 
 @dataclass(frozen=True, slots=True)

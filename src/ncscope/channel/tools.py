@@ -9,16 +9,13 @@ import numpy as np
 
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
+from ncscope.channel.selection import kinematics_of
 from ncscope.diagnostics import Span
-from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.language import tree
 from ncscope.machine import Tool
 
 if TYPE_CHECKING:
     from ncscope.channel.words import Words
-
-SHIFT_PARAMETERS = range(3, 6)
-"""The kinematic parameters that a tool may change: zero_position (decision D-17)."""
 
 
 def select(draft: Draft, index: int, span: Span, together: bool = False) -> None:
@@ -30,6 +27,8 @@ def select(draft: Draft, index: int, span: Span, together: bool = False) -> None
     tool = Tool() if index == 0 else _record(draft, index, span)
     _check_kinematics(draft, index, tool, span)
     draft.state = offsets.select_tool(draft.state, index, tool, draft.place)
+    if dict(before.tool.record.kinematic_parameters) != dict(tool.kinematic_parameters):
+        renew_kinematics(draft, span)
     moved = not np.array_equal(draft.state.position.program, before.position.program)
     at_once = draft.machine.settings.tool_moves_at_once and before.coordinates.kinematics is None
     if not (moved and at_once):
@@ -80,39 +79,26 @@ def _record(draft: Draft, index: int, span: Span) -> Tool:
 
 
 def _check_kinematics(draft: Draft, index: int, tool: Tool, span: Span) -> None:
-    """A tool may preselect a kinematics and shift its zero position; both only while it is off."""
+    """A tool preselects its kinematics; an active one must be the same (P-TOOL-00011)."""
     held = draft.state.kinematics
-    active = draft.state.coordinates.kinematics is not None
-    if tool.kinematic_id:
-        if active and tool.kinematic_id != held.selected:
-            draft.fail(
-                "20990",
-                span,
-                f"tool D{index} belongs to kinematics {tool.kinematic_id}, "
-                f"but kinematics {held.selected} is active",
-            )
-        draft.state = replace(draft.state, kinematics=replace(held, selected=tool.kinematic_id))
-    others = [i for i, v in tool.kinematic_parameters.items() if v and i not in SHIFT_PARAMETERS]
-    if others:
+    if not tool.kinematic_id:
+        return
+    if held.is_on and tool.kinematic_id != held.ids[0]:
         draft.fail(
-            "N2001",
+            "20990",
             span,
-            f"wz[{index}].kinematic.param[{others[0]}] is not supported; "
-            "a tool may only change param[3] to param[5]",
+            f"tool D{index} belongs to kinematics {tool.kinematic_id}, "
+            f"but kinematics {held.ids[0]} is active",
         )
-    old = draft.state.tool.record.kinematic_parameters
-    if active and dict(old) != dict(tool.kinematic_parameters):
-        draft.fail(
-            "N2001",
-            span,
-            f"tool D{index} changes the kinematics; that is not supported while it is active",
-            "switch the transformation off first (#TRAFO OFF)",
-        )
+    ids = (tool.kinematic_id, held.ids[1])
+    draft.state = replace(draft.state, kinematics=replace(held, ids=ids))
 
 
-def with_tool_parameters(parameters: KinematicParameters, tool: Tool) -> KinematicParameters:
-    """The data set with the tool's parameters added (wz[].kinematic.param[])."""
-    for index, value in tool.kinematic_parameters.items():
-        if value:
-            parameters = parameters.with_value(index, parameters.values[index] + value)
-    return parameters
+def renew_kinematics(draft: Draft, span: Span) -> None:
+    """The active kinematics with the parameters that the tool adds; axes and pose stay."""
+    coordinates = draft.state.coordinates
+    if coordinates.kinematics is None:
+        return
+    model = kinematics_of(draft, span, draft.state.kinematics.active)
+    active = replace(coordinates.kinematics, model=model)
+    draft.set_coordinates(replace(coordinates, kinematics=active), span)

@@ -9,7 +9,7 @@ from typing import Any
 
 from ncscope.diagnostics import Diagnostic, Severity, Span, diagnostic
 from ncscope.kinematics.parameters import INDEX_OF_FIELD, MAX_AXES, KinematicParameters
-from ncscope.lists.kinematic_sets import KinematicSet, split_key
+from ncscope.lists.kinematic_sets import KinematicSet
 from ncscope.lists.reading import Loaded, load
 from ncscope.machine import Machine
 
@@ -47,10 +47,8 @@ def _without_effect(loaded: Loaded) -> Iterator[Diagnostic]:
     """N3003 once for every key, at its first entry."""
     said: set[str] = set()
     for reading in loaded.readings:
-        split = split_key(reading.entry.key)
-        second_step = split is not None and split[0].step > 0
-        key = f"kin_step[].{reading.row.key}" if second_step else reading.row.key
-        if key in said or not (second_step or reading.row.status == "-"):
+        key = reading.row.key
+        if key in said or reading.row.status != "-":
             continue
         said.add(key)
         message = f"{reading.entry.key} ({reading.row.id}) is read and has no effect yet"
@@ -58,9 +56,14 @@ def _without_effect(loaded: Loaded) -> Iterator[Diagnostic]:
 
 
 def _kinematics(loaded: Loaded) -> Iterator[Diagnostic]:
-    used = loaded.machine.kinematic_parameters
+    machine = loaded.machine
+    used = (
+        machine.kinematic_parameters,
+        machine.second_step_parameters,
+        machine.program_step_parameters,
+    )
     for item in loaded.kinematic_sets:
-        parameters = used.get(item.id)
+        parameters = used[item.slot.step].get(item.id)
         overruled = parameters is None or parameters.values is not item.parameters.values
         if overruled or parameters is None or parameters.type != UNIVERSAL:
             continue

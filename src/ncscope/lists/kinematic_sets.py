@@ -1,7 +1,8 @@
 """Kinematic data sets from the channel list.
 
 Three spellings reach one kind of record: `kinematik[id].x` (up to V2.11), `trafo[j].id` with
-`trafo[j].x` (from V3.00), and `kin_step[0].trafo[j].x`. Numbers stay in list units.
+`trafo[j].x` (from V3.00), and `kin_step[0].trafo[j].x`. `kin_step[1].trafo[j].x` is the second step
+of a transformation, `trafo_pcs[j].x` a PCS transformation. Numbers stay in list units.
 Source: FCT-C27 3.2 and 3.5, P-CHAN-00262, -00263, -00285 to -00295, -00829.
 """
 
@@ -16,13 +17,21 @@ from ncscope.kinematics.parameters import KinematicParameters, field_index
 from ncscope.lists.values import Reading
 
 _SLOT = re.compile(
-    r"(?:kinematik\[(?P<id>\d+)\]|(?:kin_step\[(?P<step>\d+)\]\.)?trafo\[(?P<place>\d+)\])\.(?P<field>.+)"
+    r"(?:kinematik\[(?P<id>\d+)\]|(?:kin_step\[(?P<step>\d+)\]\.)?"
+    r"trafo(?P<pcs>_pcs)?\[(?P<place>\d+)\])\.(?P<field>.+)"
 )
+
+
+PROGRAM_STEP = -1
+"""The step of a PCS transformation (trafo_pcs)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """Where a list keeps a data set: `spelling` is the text before the field."""
+    """Where a list keeps a data set: `spelling` is the text before the field.
+
+    step: 0 and 1 are the steps of a transformation, PROGRAM_STEP is a PCS transformation.
+    """
 
     spelling: str
     step: int
@@ -50,7 +59,8 @@ def split_key(key: str) -> tuple[Slot, str] | None:
         return None
     fixed = int(match["id"]) if match["id"] else None
     spelling = key.lower()[: match.start("field") - 1]
-    return Slot(spelling, int(match["step"] or 0), fixed), match["field"]
+    step = PROGRAM_STEP if match["pcs"] else int(match["step"] or 0)
+    return Slot(spelling, step, fixed), match["field"]
 
 
 def is_number(reading: Reading) -> bool:
@@ -67,9 +77,12 @@ def read_sets(
     found: list[Diagnostic] = []
     for reading in readings:
         split = split_key(reading.entry.key)
-        if split is None or reading.value is None or split[0].step > 0:
+        if split is None or reading.value is None:
             continue
         slot, field = split
+        if slot.step > 1:
+            found.append(_no_such_step(reading))
+            continue
         current = sets.get(slot) or _empty(slot, reading)
         index = field_index(field)
         if index is None:
@@ -81,12 +94,14 @@ def read_sets(
 
 
 def by_id(
-    sets: Iterable[KinematicSet],
+    sets: Iterable[KinematicSet], step: int = 0
 ) -> tuple[Mapping[int, KinematicParameters], tuple[Diagnostic, ...]]:
-    """The data sets by kinematic id; of two with one id the later one counts."""
+    """The data sets of one step by kinematic id; of two with one id the later one counts."""
     chosen: dict[int, KinematicSet] = {}
     found: list[Diagnostic] = []
     for item in sets:
+        if item.slot.step != step:
+            continue
         if item.id == 0:
             found.append(_without_id(item))
             continue
@@ -146,6 +161,12 @@ def _same_id(earlier: KinematicSet, later: KinematicSet) -> Diagnostic:
     return diagnostic(
         "N3007", new.entry.key_span, message, "give each data set its own id", notes=notes
     )
+
+
+def _no_such_step(reading: Reading) -> Diagnostic:
+    message = f"{reading.entry.key}: a transformation has the steps 0 and 1 only"
+    hint = "write kin_step[0] or kin_step[1]"
+    return diagnostic("110303", reading.entry.key_span, message, hint)
 
 
 def _without_id(item: KinematicSet) -> Diagnostic:

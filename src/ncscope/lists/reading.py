@@ -83,6 +83,10 @@ def assemble(
     found.extend(problems)
     parameters, problems = kinematic_sets.by_id(sets)
     found.extend(problems)
+    second, problems = kinematic_sets.by_id(sets, 1)
+    found.extend(problems)
+    of_program, problems = kinematic_sets.by_id(sets, kinematic_sets.PROGRAM_STEP)
+    found.extend(problems)
     own = _axes(channel, axis_records)
     machine = Machine(
         name,
@@ -93,6 +97,8 @@ def assemble(
         records.tools(by_kind["tool"], frozenset(i for i, axis in enumerate(own) if axis.rotary)),
         parameters,
         settings,
+        second,
+        of_program,
     )
     every = [
         *(r for part in by_kind.values() for r in part),

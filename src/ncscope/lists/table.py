@@ -34,6 +34,7 @@ INTEGER_RANGES = {
 
 _OLD_KINEMATICS = re.compile(r"kinematik\[\d*\]\.(.+)")
 _KINEMATIC_STEP = re.compile(r"kin_step\[\d*\]\.(trafo\[\d*\].*)")
+_PROGRAM_STEP = re.compile(r"trafo_pcs(\[\d*\]\..*)")
 _INDEX = re.compile(r"\[\d+\]")
 
 
@@ -75,7 +76,8 @@ def rows() -> tuple[ParameterRow, ...]:
 def find(list_kind: str, key: str) -> ParameterRow | None:
     """The parameter that a key of a list means; index numbers do not matter, upper case neither.
 
-    Knows the spellings `kinematik[91].x` and `kin_step[i].trafo[j].x` of `trafo[j].x`.
+    Knows the spellings `kinematik[91].x`, `kin_step[i].trafo[j].x` and `trafo_pcs[j].x` of
+    `trafo[j].x`.
     """
     return _table()[1].get((list_kind, pattern(key).lower()))
 
@@ -84,6 +86,8 @@ def pattern(key: str) -> str:
     """The key as the table spells it: without index numbers, kinematics under `trafo[]`."""
     match = _KINEMATIC_STEP.fullmatch(key)
     key = match.group(1) if match else key
+    match = _PROGRAM_STEP.fullmatch(key)
+    key = f"trafo{match.group(1)}" if match else key
     match = _OLD_KINEMATICS.fullmatch(key.lower() if key[:1] == "K" else key)
     key = f"trafo[].{match.group(1)}" if match else key
     return _INDEX.sub("[]", key)

@@ -56,7 +56,7 @@ def _tool_direction(draft: Draft, command: tree.HashCommand) -> Array:
         draft.fail(error.id, command.span, error.message)
     if direction is not None:
         return direction
-    if state.kinematics.selected:
+    if any(state.kinematics.ids):
         draft.fail(
             "N2050",
             command.span,

@@ -11,6 +11,7 @@ from dataclasses import replace
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
 from ncscope.channel.state import Suspended
+from ncscope.channel.tools import renew_kinematics
 from ncscope.coordinates import Coordinates
 from ncscope.language import tree
 
@@ -51,6 +52,7 @@ def off(draft: Draft, command: tree.HashCommand) -> None:
     draft.state = replace(state, suspended=None, zero_index=held.zero_index)
     restored = replace(held.coordinates, contour=contour, tool=tool)
     draft.set_coordinates(restored, command.span)
+    renew_kinematics(draft, command.span)
 
 
 def _ex_tool(draft: Draft, command: tree.HashCommand) -> bool:

@@ -1,0 +1,114 @@
+"""From kinematic ids to a kinematics in use: data set, tool parameters, faults, steps.
+
+Used where a transformation is switched on and where a tool changes the one that is on.
+Source: FCT-C27; TF5200 #KIN ID, multi-step transformations; P-TOOL-00009, P-TOOL-00011.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ncscope.channel.draft import Draft
+from ncscope.channel.state import PROGRAM_STEP
+from ncscope.diagnostics import Span
+from ncscope.kinematics.building import UNIVERSAL, build, type_of
+from ncscope.kinematics.chain import Fault, validate
+from ncscope.kinematics.parameters import FIELD_OF_INDEX, INDEX_OF_FIELD, KinematicParameters
+from ncscope.kinematics.step import KinematicsError, KinematicStep, TwoSteps
+from ncscope.machine import Tool
+
+SHIFT_PARAMETERS = frozenset(range(3, 6))
+"""What tools are expected to change: zero_position (decision D-17)."""
+STRUCTURE = frozenset(
+    index
+    for name, index in INDEX_OF_FIELD.items()
+    if name.endswith(".type") or name.startswith("chain") or ("." not in name and "[" not in name)
+)
+"""Numbers that say what kind of machine it is; a tool cannot add to them."""
+
+
+def kinematics_of(draft: Draft, span: Span, ids: tuple[int, int]) -> KinematicStep:
+    """The kinematics of the preselected ids, first step and second step (0: without)."""
+    first = step_of(draft, span, 0, ids[0])
+    if not ids[1]:
+        return first
+    if len(first.orientation) == 2:
+        draft.fail(
+            "N2001",
+            span,
+            f"kinematics {ids[0]} as first of two steps with angles in space (rtcp 0) "
+            "is not supported",
+            "two angle pairs mean one direction, so the second step would have no definite values",
+        )
+    return TwoSteps(first, step_of(draft, span, 1, ids[1]))
+
+
+def step_of(draft: Draft, span: Span, step: int, id: int) -> KinematicStep:
+    """One step, with the parameters of the tool where it is the first."""
+    parameters = _parameters(draft, span, step, id)
+    if step == 0:
+        parameters = _with_tool(draft, span, parameters, draft.state.tool.record)
+    machine, names = draft.machine, draft.state.axis_names
+    mode = machine.settings.orientation_mode
+    if type_of(parameters) == UNIVERSAL and UNIVERSAL not in machine.kinematic_types:
+        for fault in validate(parameters, len(names), mode, names):
+            _report(draft, span, parameters, fault)
+    try:
+        return build(parameters, names, mode, machine.kinematic_types)
+    except KinematicsError as error:
+        message = f"kinematics {id} cannot be selected: {error.message}"
+        draft.fail(error.id, span, message, error.hint)
+
+
+def _parameters(draft: Draft, span: Span, step: int, id: int) -> KinematicParameters:
+    held = draft.state.kinematics.sets(step)
+    if id == 0:
+        command = "#TRAFO PCS ID [..]" if step == PROGRAM_STEP else "#KIN ID [91]"
+        draft.fail("292005", span, "no kinematics is selected", f"write {command} before it")
+    if id not in held:
+        where = ("", " in the second step (kin_step[1])", " as a PCS transformation (trafo_pcs)")
+        known = ", ".join(str(i) for i in sorted(held)) or "none"
+        number = "21630" if step == PROGRAM_STEP else "292005"
+        message = f"kinematics {id} is not configured{where[step]}; configured: {known}"
+        draft.fail(number, span, message)
+    return held[id]
+
+
+def _with_tool(
+    draft: Draft, span: Span, parameters: KinematicParameters, tool: Tool
+) -> KinematicParameters:
+    """The data set with the tool's parameters added (wz[].kinematic.param[])."""
+    added = {index: value for index, value in tool.kinematic_parameters.items() if value}
+    if type_of(parameters) == UNIVERSAL:
+        _check_added(draft, span, added)
+    for index, value in added.items():
+        parameters = parameters.with_value(index, parameters.values[index] + value)
+    return parameters
+
+
+def _check_added(draft: Draft, span: Span, added: Mapping[int, float]) -> None:
+    for index in sorted(added):
+        field = FIELD_OF_INDEX[index]
+        if index in STRUCTURE:
+            message = f"the tool adds {added[index]:g} to param[{index}], which is {field}"
+            draft.fail("292010", span, message, "a tool may only change lengths and directions")
+        if index not in SHIFT_PARAMETERS:
+            message = f"the tool changes {field} of the kinematics (param[{index}])"
+            draft.warn("N2029", span, message, "tools are expected to change param[3] to param[5]")
+
+
+def _report(draft: Draft, span: Span, parameters: KinematicParameters, fault: Fault) -> None:
+    """The fault at selection, with the lines that wrote the values to blame."""
+    notes: list[tuple[str, Span]] = []
+    for index in fault.indices:
+        writers = [w for w in parameters.origins.get(index, ()) if isinstance(w, Span)]
+        words = ("written here",) if len(writers) == 1 else ("written here first",)
+        for i, writer in enumerate(writers[-6:]):
+            notes.append((words[0] if i == 0 else "written again here", writer))
+    draft.fail(
+        fault.id,
+        span,
+        f"kinematics {parameters.id} cannot be selected: {fault.message}",
+        fault.hint,
+        notes=tuple(notes[:8]),
+    )
