@@ -28,6 +28,7 @@ LAYERS = (
     "motion",
     "explanation",
     "trajectory",
+    "recording",
     "inspection",
     "channel",
     "execution lists",
@@ -202,8 +203,8 @@ def test_planted_file_access_is_caught(copy: Path, code: str) -> None:
 
 
 def test_planted_length_and_id_are_caught(copy: Path) -> None:
-    path = copy / "motion.py"
+    path = copy / "motion" / "arc.py"
     text = path.read_text(encoding="utf-8") + "\nBAD = 'N9876'\n" + "#\n" * MAX_LINES
     path.write_text(text, encoding="utf-8")
-    assert any(f.startswith("motion.py") for f in long_modules(copy))
+    assert any(f.startswith("motion/arc.py") for f in long_modules(copy))
     assert "N9876" in used_ids(copy) - set(CATALOGUE)

@@ -3,7 +3,7 @@
 `main.nc`      the program, or `program` with the name of one in examples/programs
 `machine`      name of a folder in examples/machines; without it, lists in the case folder; without
                those, axes X Y Z
-`options`      lines `skip 1 3`, `clamp 2`, `max_blocks 5`, `strict`
+`options`      lines `skip 1 3`, `clamp 2`, `max_blocks 5`, `strict`, `sample 0.1`
 `known_bug`    why the case fails today; the case must be freed of it when it passes
 `expected.txt` one line per move, then diagnostics and messages:
 
@@ -88,6 +88,8 @@ def options_of(folder: Path) -> ncscope.Options:
         key, *values = line.split()
         if key == "skip":
             given[key] = frozenset(map(int, values))
+        elif key == "sample":
+            given[key] = float(values[0])
         else:
             given[key] = int(values[0]) if values else True
     return ncscope.Options(**given)
@@ -197,10 +199,10 @@ def test_two_of_a_group_point_at_both_words() -> None:
 
 
 def test_unsupported_command_is_named_and_marked() -> None:
-    result = ncscope.run(Machine(), "N10 X1\nN20   G02 X10 Y0 I5\nN30 X2\nM30\n")
+    result = ncscope.run(Machine(), "N10 X1\nN20   G303 X10 Y0 I5\nN30 X2\nM30\n")
     (error,) = [d for d in result.diagnostics if d.is_error]
-    assert error.id == "N2001" and "G02" in error.message
+    assert error.id == "N2001" and "G303" in error.message
     marker = next(t for t in ncscope.render(error).splitlines() if "^" in t)
-    line = next(t for t in ncscope.render(error).splitlines() if "G02 X10" in t)
-    assert marker.index("^") == line.index("G02")
+    line = next(t for t in ncscope.render(error).splitlines() if "G303 X10" in t)
+    assert marker.index("^") == line.index("G303")
     assert len(result) == 1 and not result.ok

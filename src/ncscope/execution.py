@@ -20,7 +20,9 @@ from ncscope.inspection import inspect
 from ncscope.language import BlockReader, tree
 from ncscope.language.structure import layout, needs_layout
 from ncscope.machine import Machine
-from ncscope.trajectory import Recorder, Trajectory
+from ncscope.motion.sampling import FINEST
+from ncscope.recording import Recorder
+from ncscope.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from ncscope.language.scanner import Scanner
@@ -40,6 +42,8 @@ class Options:
 
     clamp: clamp position handed over at program start. skip: skip levels that are switched on.
     max_blocks: blocks after which the run stops, 0 for no limit. strict: a warning stops too.
+    sample: largest chord error (mm and degrees) of points along the moves, in the workpiece and
+    per axis; None for the ends of moves only. See `motion.sampling`.
     bulk: whether plain blocks are taken many at a time; None leaves it to the length
     of the program. The result is the same.
     load: the text of a subprogram file that the program calls, None where there is none; without
@@ -52,6 +56,12 @@ class Options:
     strict: bool = False
     bulk: bool | None = None
     load: Load | None = None
+    sample: float | None = None
+
+    def __post_init__(self) -> None:
+        """Raises ValueError for a tolerance below the resolution of the control."""
+        if self.sample is not None and not self.sample >= FINEST:
+            raise ValueError(f"sample has to be {FINEST:g} or more")
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +174,7 @@ class _Loop:
     def __init__(self, machine: Machine, source: Source, options: Options) -> None:
         self.machine, self.source, self.options = machine, source, options
         self.state = start_state(machine, options.clamp)
-        self.recorder, self.log = Recorder(source.name), _Log()
+        self.recorder, self.log = Recorder(source, options.sample), _Log()
         self.messages: list[Message] = []
         self.channels = [(0, self.state.axes)]
         self.sources = {source.name: source}
@@ -193,7 +203,7 @@ class _Loop:
         self.ended, self.returned = step.ended, step.returned
         if step.state.axes is not before.axes:
             self.scanner = None
-            self.channels.append((self.recorder.moves, step.state.axes))
+            self.channels.append((self.recorder.rows, step.state.axes))
 
     def meet(self, block: tree.Block, found: Iterable[Diagnostic]) -> bool:
         """Whether a block that was reached is to be executed; says what was found in it."""
@@ -222,10 +232,11 @@ class _Loop:
             left = self.options.max_blocks - self.count if self.options.max_blocks else len(rows)
             if min(len(rows), left) == 0:
                 return
+            start = self.state.position.program
             self.state, stretch = advance(self.state, rows, self.source.name, left)
             if stretch is None:
                 return
-            self.recorder.extend(stretch)
+            self.recorder.extend(stretch, start)
             self.count += len(stretch)
             reader.skip_to(int(rows.stops[len(stretch) - 1]))
 
@@ -242,6 +253,7 @@ class _Loop:
         if not self.over:
             self.log.add(_no_end(self.source), self.options.strict)
         self.recorder.close()
+        self.add(self.recorder.complaints())
         done = Trajectory(
             tuple(self.recorder.stretches),
             tuple(self.recorder.axes) or self.state.axis_names,
@@ -250,7 +262,7 @@ class _Loop:
             _places=self.recorder.places,
             _file=self.source.name,
         )
-        self.add(inspect(done).diagnostics(self.sources))
+        self.add(inspect(done.at_ends()).diagnostics(self.sources))
         return replace(done, diagnostics=tuple(self.log.items), ok=not self.log.stop)
 
 

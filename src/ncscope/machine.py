@@ -119,6 +119,10 @@ class ChannelSettings:
     direction_turns: bool = False  # P-CHAN-00247 ori_wcs
     ecs_axis: str = ""  # P-CHAN-00031 kind_of_2nd_ecs_ax
     ecs_plane: str = ""  # P-CHAN-00050 mach_plane_of_2nd_ecs_ax
+    centre_shift: float = 2.0  # P-CHAN-00059 mittelpkt_diff, mm
+    centre_shift_share: float = 0.05  # P-CHAN-00060 mittelpkt_faktor, of the radius
+    radius_difference: float = 0.005  # P-CHAN-00171 max_radius_diff_circle, mm
+    radius_difference_share: float = 0.001  # P-CHAN-00172 max_proz_radius_diff_circle
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ that was not in the channel at a block is NaN there.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -22,11 +22,10 @@ from ncscope.diagnostics import Diagnostic, render
 from ncscope.explanation import Explanation, Visit, Whereabouts, whereabouts
 from ncscope.frames import Array
 from ncscope.machine import Axis
-from ncscope.motion import Move
+from ncscope.motion import MOTIONS
 
 NO_BLOCK = -1
 """In the column `block`: the line has no N number."""
-MOTIONS = ("G00", "G01")
 
 
 @dataclass(frozen=True)
@@ -34,7 +33,8 @@ class Stretch:
     """Consecutive moves under one `Coordinates` and one set of axes.
 
     line, block: int64 (m,). motion: index into MOTIONS, int8 (m,). feed: NaN where none.
-    pcs, acs: (m, n). start: (n,) axis positions before the first move.
+    pcs, acs: (m, n). start: (n,) axis positions before the first move. ends: (m,) whether the row
+    is the end of its move and not a point on the way there, None where all are ends.
     """
 
     coordinates: Coordinates
@@ -47,9 +47,21 @@ class Stretch:
     pcs: Array
     acs: Array
     start: Array
+    ends: NDArray[np.bool_] | None = None
 
     def __len__(self) -> int:
         return len(self.line)
+
+    @property
+    def end(self) -> NDArray[np.bool_]:
+        """(m,) whether the row is the end of its move."""
+        return np.ones(len(self), dtype=bool) if self.ends is None else self.ends
+
+    def at_ends(self) -> Stretch:
+        """The stretch with the ends of moves only."""
+        columns = ("line", "block", "motion", "feed", "pcs", "acs")
+        kept = {name: getattr(self, name)[self.end] for name in columns}
+        return replace(self, **kept, ends=None)
 
     @cached_property
     def mcs(self) -> Array:
@@ -84,6 +96,16 @@ class Trajectory:
 
     def __len__(self) -> int:
         return sum(len(s) for s in self.stretches)
+
+    @property
+    def sampled(self) -> bool:
+        """Whether there may be rows between the ends of moves (`Options.sample`)."""
+        return any(s.ends is not None for s in self.stretches)
+
+    @property
+    def end(self) -> NDArray[np.bool_]:
+        """Whether a row is the end of its move, or a point on the way there."""
+        return self._column(lambda s: s.end, np.bool_)
 
     @property
     def line(self) -> NDArray[np.int64]:
@@ -134,6 +156,16 @@ class Trajectory:
         ]
         return np.concatenate(rows) if rows else np.empty((0, 3))
 
+    def at_ends(self) -> Trajectory:
+        """The trajectory with the ends of moves only, as a run without points gives it."""
+        if not self.sampled:
+            return self
+        ends = np.concatenate([[0], np.cumsum(self.end)])
+        channels = tuple((int(ends[row]), axes) for row, axes in self.channels)
+        return replace(
+            self, stretches=tuple(s.at_ends() for s in self.stretches), channels=channels
+        )
+
     def check(self) -> Trajectory:
         """This result; raises RuntimeError with the rendered errors when the run failed."""
         errors = [d for d in self.diagnostics if d.is_error]
@@ -172,7 +204,10 @@ class Trajectory:
         return lines[-1]
 
     def to_arrow(self) -> Any:
-        """A pyarrow Table: line, block, motion, feed, then pcs_X .. acs_X, mcs_X, wcs_X."""
+        """A pyarrow Table: line, block, motion, feed, then pcs_X .. acs_X, mcs_X, wcs_X.
+
+        A sampled run has the column `end` besides: whether the row is the end of its move.
+        """
         import pyarrow as pa
 
         columns: dict[str, Any] = {
@@ -181,6 +216,8 @@ class Trajectory:
             "motion": self.motion,
             "feed": self.feed,
         }
+        if self.sampled:
+            columns["end"] = self.end
         for name in ("pcs", "wcs", "mcs", "acs"):
             matrix = getattr(self, name)
             columns |= {f"{name}_{axis}": matrix[:, i] for i, axis in enumerate(self.axes)}
@@ -243,81 +280,3 @@ class Trajectory:
             result[row : row + len(s), columns] = pick(s)
             row += len(s)
         return result
-
-
-class Recorder:
-    """Collects moves while a program runs, in growing columns, and closes a stretch whenever the
-    coordinates or the axes change."""
-
-    def __init__(self, file: str) -> None:
-        self.file = file
-        self.stretches: list[Stretch] = []
-        self.axes: list[str] = []
-        self.moves = 0
-        self.places: dict[int, Visit] = {}
-        self._open: tuple[Coordinates, tuple[str, ...], Array, str] | None = None
-        self._rows: list[tuple] = []
-        self._pcs: list[Array] = []
-        self._acs: list[Array] = []
-
-    def add(
-        self, coordinates: Coordinates, axes: tuple[str, ...], move: Move, start: Array
-    ) -> None:
-        """One move; `start` are the axis positions before it."""
-        file = move.span.source.name
-        if self._open is None or (
-            self._open[0] is not coordinates or self._open[1] != axes or self._open[3] != file
-        ):
-            self.close()
-            self._open = (coordinates, axes, start, file)
-        self._rows.append(
-            (
-                move.span.line,
-                NO_BLOCK if move.block is None else move.block,
-                MOTIONS.index(move.motion),
-                np.nan if move.feed is None else move.feed,
-            )
-        )
-        self._pcs.append(move.program)
-        self._acs.append(move.axes)
-        self.moves += 1
-
-    def extend(self, stretch: Stretch) -> None:
-        """Many moves at once."""
-        self.close()
-        self._name_axes(stretch.axes)
-        self.stretches.append(stretch)
-        self.moves += len(stretch)
-
-    def visit(
-        self, line: int, block: int | None, coordinates: Coordinates, axes: tuple[str, ...],
-        program: Array, position: Array,
-    ) -> None:  # fmt: skip
-        """A block without motion: what `explain` of its line shows."""
-        self.places[line] = Visit(coordinates, axes, self.file, block, program, position, position)
-
-    def close(self) -> None:
-        if self._open is None:
-            return
-        coordinates, axes, start, file = self._open
-        self._name_axes(axes)
-        lines, blocks, motions, feeds = zip(*self._rows, strict=True)
-        self.stretches.append(
-            Stretch(
-                coordinates,
-                axes,
-                file,
-                np.array(lines, dtype=np.int64),
-                np.array(blocks, dtype=np.int64),
-                np.array(motions, dtype=np.int8),
-                np.array(feeds, dtype=float),
-                np.array(self._pcs, dtype=float),
-                np.array(self._acs, dtype=float),
-                start,
-            )
-        )
-        self._open = None
-        self._rows, self._pcs, self._acs = [], [], []
-
-    def _name_axes(self, axes: tuple[str, ...]) -> None:
-        self.axes.extend(a for a in axes if a not in self.axes)

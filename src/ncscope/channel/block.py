@@ -15,7 +15,7 @@ from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
 from ncscope.channel.evaluation import evaluate_number, write_variable
 from ncscope.channel.gfunctions import GFUNCTIONS
-from ncscope.channel.rules import RULES, later, reject_unused
+from ncscope.channel.rules import RULES, reject_unused
 from ncscope.channel.state import State
 from ncscope.channel.words import Words, collect_axes, refuse_path_condition
 from ncscope.diagnostics import Diagnostic, Span, diagnostic
@@ -91,11 +91,11 @@ def _execute(draft: Draft, block: tree.Block) -> None:
 def _refuse_flow(draft: Draft, block: tree.Block) -> None:
     for word in block.words:
         if isinstance(word, tree.Call):
-            later(draft, word.span, f"a subprogram call ({word.kind})")
+            draft.later(word.span, f"a subprogram call ({word.kind})")
         if isinstance(word, (tree.Macro, tree.MacroDefinition)):
-            later(draft, word.span, "a macro")
+            draft.later(word.span, "a macro")
         if isinstance(word, tree.AxisCommand):
-            later(draft, word.span, f"the axis command {word.name}[{word.keyword} ..]")
+            draft.later(word.span, f"the axis command {word.name}[{word.keyword} ..]")
 
 
 def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None:
@@ -108,7 +108,7 @@ def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None
     elif row is not None and row.kind == "no effect":
         draft.warn("N2002", command.span, f"#{command.name} has no effect on positions")
     else:
-        later(draft, command.span, f"#{command.name}")
+        draft.later(command.span, f"#{command.name}")
 
 
 # --- collect -----------------------------------------------------------------------------------
@@ -126,7 +126,7 @@ def _collect(draft: Draft, words: tuple[tree.Word, ...]) -> Words:
             case tree.MWord():
                 number = round(evaluate_number(draft, word.number))
                 if number in (17, 29) and word.arguments:
-                    later(draft, word.span, f"M{number} with brackets")
+                    draft.later(word.span, f"M{number} with brackets")
                 collected.mfunctions[number] = word.span
             case tree.AddressWord():
                 _collect_address(draft, collected, word)

@@ -18,6 +18,7 @@ from ncscope.diagnostics import Diagnostic, Span, diagnostic
 from ncscope.kinematics.step import KinematicsError
 from ncscope.machine import Machine
 from ncscope.motion import Move
+from ncscope.motion.arc import Arc
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +59,11 @@ class Draft:
 
     def warn(self, id: str, span: Span, message: str, hint: str = "") -> None:
         self.diagnostics.append(diagnostic(id, span, message, hint))
+
+    def later(self, span: Span, what: str) -> NoReturn:
+        """The refusal by name of what moves positions and is not modelled."""
+        hint = "the run stops here, because positions after it would not be right"
+        self.fail("N2001", span, f"{what} is not supported yet", hint)
 
     # --- axes ----------------------------------------------------------------------------------
 
@@ -104,6 +110,7 @@ class Draft:
         program: np.ndarray,
         span: Span,
         coordinates: Coordinates | None = None,
+        arc: Arc | None = None,
         direction: Span | None = None,
     ) -> None:
         """A motion to programmed values (n,), mm and degrees; `coordinates` for this one alone.
@@ -113,6 +120,9 @@ class Draft:
         state = self.state
         chain = coordinates or state.coordinates
         try:
+            start = state.position.program
+            if coordinates is not None:
+                start = coordinates.to_program(state.position.axes)
             axes = chain.to_axes(program, near=state.position.axes)
             shown = program
             if coordinates is not None:
@@ -125,5 +135,8 @@ class Draft:
             self.fail("21883", span, "the axis position is too large to be computed")
         self.state = replace(state, position=Position(axes, shown))
         modes = state.modal
-        move = Move(modes.motion, modes.feed, program, axes, state.block, span, coordinates)
-        self.moves.append(move)
+        self.moves.append(
+            Move(
+                modes.motion, modes.feed, start, program, axes, state.block, span, coordinates, arc
+            )
+        )

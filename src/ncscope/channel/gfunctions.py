@@ -28,7 +28,7 @@ def _rows() -> dict[int, GFunction]:
 
     # fmt: off
     add("0 1", "motion", "20108", "motion", "linear motion, rapid or with feed")
-    add("2 3", "motion", "20108", "later", "circular motion")
+    add("2 3", "motion", "20108", "motion", "circular motion")
     add("4", "motion", "20108", "quiet", "dwell")
     add("33 63 331 332", "motion", "20108", "later", "thread cutting and tapping")
     add("74", "motion", "20108", "motion", "homing")
@@ -65,9 +65,9 @@ def _rows() -> dict[int, GFunction]:
     add("101 102", "measuring", "20123", "offset", "measured offset")
     add("150", None, None, "quiet", "spline off")
     add("151", None, None, "later", "spline")
-    add("161 162", "centre", "20127", "quiet", "circle centre absolute or relative")
-    add("163", None, None, "later", "radius programming")
-    add("164 165", "correction", "20128", "quiet", "circle centre correction")
+    add("161 162", "centre", "20127", "modal", "circle centre absolute or relative")
+    add("163", "radius value", None, "modal", "radius programming")
+    add("164 165", "correction", "20128", "modal", "circle centre correction")
     add("200 201", "manual", "20129", "motion", "manual mode")
     add("202", "manual", "20129", "motion", "manual mode off")
     add("66", None, None, "quiet", "cycle synchronisation")

@@ -9,9 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
-from ncscope.channel import contour, manual, measuring, offsets, tools
+from ncscope.channel import circle, contour, manual, measuring, offsets, tools, travel
 from ncscope.channel.draft import Draft
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.words import Words
@@ -23,21 +21,11 @@ KNOWN_M = frozenset((0, 1, 2, 3, 4, 5, 19, 30))
 """Stops, program end and spindle: without effect on positions beyond any doubt."""
 
 
-def later(draft: Draft, span: Span, what: str) -> None:
-    """The refusal by name of what moves positions and is not modelled."""
-    draft.fail(
-        "N2001",
-        span,
-        f"{what} is not supported yet",
-        "the run stops here, because positions after it would not be right",
-    )
-
-
 def _refuse_g(draft: Draft, words: Words) -> None:
     for number, word in words.gfunctions.items():
         row: GFunction = GFUNCTIONS[number]
         if row.effect == "later":
-            later(draft, word.span, f"G{number:02d} ({row.purpose})")
+            draft.later(word.span, f"G{number:02d} ({row.purpose})")
         if row.effect == "quiet":
             draft.warn("N2002", word.span, f"G{number:02d} has no effect on positions")
     weighted = [n for n in words.gfunctions if n in WEIGHTED]
@@ -47,7 +35,7 @@ def _refuse_g(draft: Draft, words: Words) -> None:
 
 def _modal(draft: Draft, words: Words) -> None:
     for number in words.gfunctions:
-        if number in (0, 1):
+        if number in (0, 1, 2, 3):
             draft.modal(motion=f"G{number:02d}")
         elif number in (70, 71):
             draft.modal(inch=number == 70)
@@ -164,67 +152,6 @@ def _end_feed(draft: Draft, value: float, span: Span) -> None:
     draft.warn("N2002", span, "E (feed at the block end) has no effect on positions")
 
 
-def _centre_words(draft: Draft, words: Words) -> None:
-    for letter in ("I", "J", "K"):
-        word = words.addresses.pop(letter, None)
-        if word is not None:
-            draft.warn("20048", word[1], f"{letter} has no effect in a linear block")
-
-
-def _motion(draft: Draft, words: Words) -> None:
-    if 100 in words.gfunctions:
-        return _measure(draft, words)
-    if not words.axes:
-        return None
-    modes = draft.modes
-    program = np.array(draft.state.position.program)
-    for axis, (value, _span) in words.axes.items():
-        length = draft.length(axis, value)
-        program[axis] = length if modes.absolute else program[axis] + length
-        _check_modulo(draft, axis, words, float(program[axis]))
-    span = next(iter(words.axes.values()))[1]
-    if modes.motion == "G01" and modes.feed is None and not modes.feed_warned:
-        draft.warn("20008", span, "a feed motion is programmed without a feed (F)")
-        draft.modal(feed_warned=True)
-    draft.move_to(program, span, direction=_direction_word(draft, words))
-    words.axes.clear()
-    return None
-
-
-def _direction_word(draft: Draft, words: Words) -> Span | None:
-    """The first word of the block that gives the tool direction."""
-    active = draft.state.coordinates.kinematics
-    columns = () if active is None else active.model.orientation
-    return next((words.axes[axis][1] for axis in columns if axis in words.axes), None)
-
-
-def _measure(draft: Draft, words: Words) -> None:
-    """G100 X100: a feed motion to the target, where the probe triggers."""
-    word = words.gfunctions.pop(100)
-    if not words.axes:
-        draft.fail("N2025", word.span, "G100 needs at least one axis with its target")
-    axes, motion = tuple(words.axes), draft.modes.motion
-    draft.modal(motion="G01")
-    _motion(draft, words)
-    draft.modal(motion=motion)
-    measuring.record(draft, axes, word.span)
-
-
-def _check_modulo(draft: Draft, axis: int, words: Words, value: float) -> None:
-    """On a modulo axis a sign is a turning direction, and values wrap; neither is modelled, so
-    only values for which it makes no difference pass."""
-    limits = draft.state.axes[axis].modulo_range
-    active = draft.state.coordinates.kinematics
-    in_space = active is not None and axis in active.model.orientation
-    if limits is None or in_space:
-        return
-    signed = draft.modes.absolute and axis in words.signed
-    if signed or not limits[0] <= value < limits[1]:
-        name = draft.state.axes[axis].name
-        what = "a sign" if signed else f"a value outside {limits[0]:g} to {limits[1]:g} degrees"
-        later(draft, words.axes[axis][1], f"{what} on the modulo axis {name}")
-
-
 def _end(draft: Draft, words: Words) -> None:
     for number, span in words.mfunctions.items():
         if number in (2, 30):
@@ -243,16 +170,16 @@ RULES: tuple[Callable[[Draft, Words], None], ...] = (
     _modal,
     contour.mirror,
     contour.rotation,
+    circle.modes,
     _zero_offset,
     _mask_group,
     _reference_point,
     measuring.offset,
     _tool,
     _technology,
-    _centre_words,
     manual.jog,
     manual.home,
-    _motion,
+    travel.motion,
     _end,
 )
 """The rules in their order of effect; each takes its words and leaves the rest."""

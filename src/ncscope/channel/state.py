@@ -21,8 +21,10 @@ INCH = 25.4
 class Modal:
     """The modal G functions that change what a word means.
 
-    motion: `G00` or `G01` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
-    feed: mm or degrees per minute. The start values are the built-in ones of P-CHAN-00063.
+    motion: `G00` to `G03` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
+    feed: mm or degrees per minute. radius: mm, of the arcs without a centre (R, G163), None where
+    a centre was given last. centre_absolute: G161. centre_fits: G165. The start
+    values are the built-in ones of P-CHAN-00063.
     """
 
     motion: str = "G00"
@@ -31,6 +33,9 @@ class Modal:
     inch: bool = False
     feed: float | None = None
     feed_warned: bool = False
+    radius: float | None = None
+    centre_absolute: bool = False
+    centre_fits: bool = True
 
     @property
     def length_factor(self) -> float:
@@ -169,7 +174,7 @@ class State:
     parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
     values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
     #MCS is on. measured: what G100 measured, by axis name.
-    message_file: where #MSG SAVE writes.
+    circle: the corrected I, J, K and R of the last arc, mm. message_file: where #MSG SAVE writes.
     """
 
     axes: tuple[Axis, ...]
@@ -194,6 +199,7 @@ class State:
     suspended: Suspended | None = None
     system_mode: SystemMode = field(default_factory=SystemMode)
     measured: Mapping[str, Measured] = field(default_factory=dict)
+    circle: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     message_file: str = "message.txt"
     block: int | None = None
 

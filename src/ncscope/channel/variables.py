@@ -137,6 +137,10 @@ def _offset_reader(kind: str) -> Callable[[Draft, Reference], float]:
     return read
 
 
+def _circle(place: int) -> Callable[[Draft], float]:
+    return lambda draft: draft.state.circle[place]
+
+
 VARIABLES: dict[str, Row] = {
     "V.G.KIN[].<field>": Row(_read_kin, _write_kin, "parameter of a kinematics, list units"),
     **tool_variables.ROWS,
@@ -165,6 +169,10 @@ VARIABLES: dict[str, Row] = {
     "V.G.ROT_CENTER2": Row(
         length(lambda d: d.state.turn.centre[1]), None, "contour rotation: centre, second axis"
     ),
+    **{
+        f"V.G.{letter}": Row(length(_circle(i)), None, f"corrected {letter} of the last arc")
+        for i, letter in enumerate("IJKR")
+    },
     "V.G.BLOCK_NR": Row(plain(lambda d: d.state.block or 0), None, "block number"),
     "V.G.FEEDRATE": Row(length(lambda d: d.modes.feed or 0.0), None, "programmed feed"),
     **axis_rows("V.A.ABS", Row(_absolute, None, "absolute value in the innermost system")),

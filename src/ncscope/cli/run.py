@@ -40,15 +40,24 @@ def run_command(
         int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
     ] = 0,
     strict: Annotated[bool, typer.Option("--strict", help="A warning stops the run.")] = False,
+    sample: Annotated[
+        float | None,
+        typer.Option(
+            "--sample", help="Points along the moves, with this chord error: mm, degrees."
+        ),
+    ] = None,
 ) -> None:
     """Run an NC program and show where the tool and every axis go."""
     from ncscope.execution import Options
+    from ncscope.motion.sampling import FINEST
     from ncscope.views.message_files import write_messages
 
     shape = _format(format, out)
     if out is not None and out.exists() and program.exists() and out.samefile(program):
         fail(f"--out {out} is the program itself")
-    options = Options(clamp, read_levels(skip), max_blocks, strict)
+    if sample is not None and not sample >= FINEST:
+        fail(f"--sample {sample:g}: the tolerance has to be {FINEST:g} or more (mm and degrees)")
+    options = Options(clamp, read_levels(skip), max_blocks, strict, sample=sample)
     result, found, _ = run_program(program, machine, options)
     found = [d for d in found if d.severity != "note"]
     errors = write_messages(messages, result.messages, (program,))
@@ -106,4 +115,6 @@ def _show_run(result: Trajectory, ok: bool) -> None:
     for message in result.messages:
         terminal.print(f"message  {message.text}", markup=False, highlight=False)
     status = "ok" if ok else "stopped by an error"
-    terminal.print(f"{len(result)} moves, {status}", style="green" if ok else "red")
+    points = len(result) - int(result.end.sum())
+    count = f"{len(result) - points} moves" + (f" and {points} points between" if points else "")
+    terminal.print(f"{count}, {status}", style="green" if ok else "red")

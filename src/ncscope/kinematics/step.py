@@ -75,10 +75,10 @@ class KinematicStep(Protocol):
     ) -> Array:
         """Axis values (..., n) for programmed values (..., n).
 
-        near: axis values (n,) before the first row; decides what the program leaves open, each
-        row continuing from the one before. pose: which of several solutions, as `pose_of` names
-        it; that of `near` when left out. turn: rotation (3, 3) applied to the programmed
-        direction (P-CHAN-00247).
+        near: axis values (n,) before the first row, or (..., n) one for each row; decides what
+        the program leaves open, each row continuing from the one before. pose: which of several
+        solutions, as `pose_of` names it; that of `near` when left out. turn: rotation (3, 3)
+        applied to the programmed direction (P-CHAN-00247).
         """
         ...
 

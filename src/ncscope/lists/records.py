@@ -39,9 +39,20 @@ SETTINGS_OF_KEYS = {
     "coordinate_system.axes_offsets_layer_specific": "offsets_per_level",
     "kind_of_2nd_ecs_ax": "ecs_axis",
     "mach_plane_of_2nd_ecs_ax": "ecs_plane",
+    "mittelpkt_diff": "centre_shift",
+    "mittelpkt_faktor": "centre_shift_share",
+    "max_radius_diff_circle": "radius_difference",
+    "max_proz_radius_diff_circle": "radius_difference_share",
 }
 """List keys of the channel settings and their names in `ChannelSettings`."""
 ECS_WORDS = {"ecs_axis": ("X", "Y"), "ecs_plane": ("XY", "ZX", "YZ")}
+SETTING_UNITS = {
+    "centre_shift": UNITS,
+    "centre_shift_share": 1000.0,
+    "radius_difference": UNITS,
+    "radius_difference_share": 1000.0,
+}
+"""List units in a millimetre, per mille in the whole."""
 
 
 def zero_offsets(readings: Iterable[Reading]) -> ZeroOffsets:
@@ -111,6 +122,8 @@ def channel_settings(
                 continue
         default = getattr(ChannelSettings(), name)
         values[name] = type(default)(reading.value)
+        if name in SETTING_UNITS:
+            values[name] /= SETTING_UNITS[name]
     return ChannelSettings(**values), tuple(found)
 
 

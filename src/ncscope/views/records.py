@@ -15,7 +15,8 @@ import orjson
 
 from ncscope.diagnostics import Diagnostic
 from ncscope.frames import Array
-from ncscope.trajectory import MOTIONS, Stretch, Trajectory
+from ncscope.motion import MOTIONS
+from ncscope.trajectory import Stretch, Trajectory
 from ncscope.views.splicing import Template
 
 ROWS = 20_000
@@ -24,14 +25,17 @@ SYSTEMS = ("pcs", "wcs", "mcs", "acs")
 
 
 def write_jsonl(out: TextIO, result: Trajectory, before: Iterable[Diagnostic], ok: bool) -> None:
-    """Moves, diagnostics, messages, and the end with the status; one object a line."""
+    """Moves, diagnostics, messages, and the end with the status; one object a line.
+
+    A point on the way to the end of a move has the kind `point` and the index of its move.
+    """
     for item in before:
         out.write(_json(diagnostic_record(item)))
     index = 0
     for stretch in result.stretches:
         for text in _json_moves(stretch, index):
             out.write(text)
-        index += len(stretch)
+        index += int(stretch.end.sum())
     for item in result.diagnostics:
         out.write(_json(diagnostic_record(item)))
     for message in result.messages:
@@ -40,11 +44,16 @@ def write_jsonl(out: TextIO, result: Trajectory, before: Iterable[Diagnostic], o
 
 
 def write_csv(out: TextIO, result: Trajectory) -> None:
-    """A header line, then a line a move; empty where an axis was not in the channel."""
+    """A header line, then a line a move; empty where an axis was not in the channel.
+
+    A sampled run has a last column `end`: 1 at the end of a move, 0 on the way there.
+    """
     names = [f"{s}_{a}" for s in SYSTEMS for a in _columns(s, result.axes)]
     direction = [f"direction_{c}" for c in "ijk"]
     head = ["file", "line", "block", "motion", "feed"]
-    csv.writer(out, lineterminator="\n").writerow([*head, *names, *direction])
+    csv.writer(out, lineterminator="\n").writerow(
+        [*head, *names, *direction, *(["end"] if result.sampled else [])]
+    )
     for stretch in result.stretches:
         for text in _csv_moves(stretch, result.axes):
             out.write(text)
@@ -70,10 +79,18 @@ def _json(record: Any) -> str:
 def _json_moves(s: Stretch, first: int) -> Iterator[str]:
     """Chunks of lines, one object a move."""
     template = _json_template(s)
+    index = first + np.cumsum(s.end) - s.end
     for start, stop in _chunks(len(s)):
-        index = np.arange(first + start, first + stop)
-        whole = np.column_stack([index, s.line[start:stop], s.block[start:stop]])
-        yield template.rows(whole, s.motion[start:stop], _matrix(s, s.axes, start, stop))
+        whole = np.column_stack([index[start:stop], s.line[start:stop], s.block[start:stop]])
+        text = template.rows(whole, s.motion[start:stop], _matrix(s, s.axes, start, stop))
+        yield text if s.ends is None else _with_points(text, s.ends[start:stop])
+
+
+def _with_points(text: str, ends: Iterable[bool]) -> str:
+    """The lines of moves with the kind `point` where they are no ends."""
+    move, point = '{"kind":"move"', '{"kind":"point"'
+    lines = zip(text.splitlines(keepends=True), ends, strict=True)
+    return "".join(line if end else point + line[len(move) :] for line, end in lines)
 
 
 def _json_template(s: Stretch) -> Template:
@@ -97,7 +114,14 @@ def _csv_moves(s: Stretch, axes: tuple[str, ...]) -> Iterator[str]:
     for start, stop in _chunks(len(s)):
         whole = np.column_stack([s.line[start:stop], s.block[start:stop]])
         matrix = _matrix(s, axes, start, stop, direction_last=True)
-        yield template.rows(whole, s.motion[start:stop], matrix)
+        text = template.rows(whole, s.motion[start:stop], matrix)
+        yield text if s.ends is None else _with_ends(text, s.ends[start:stop])
+
+
+def _with_ends(text: str, ends: Iterable[bool]) -> str:
+    """Lines with the column `end`."""
+    lines = zip(text.splitlines(), ends, strict=True)
+    return "".join(f"{line},{end:d}\n" for line, end in lines)
 
 
 def _csv_template(file: str, axes: tuple[str, ...]) -> Template:

@@ -12,10 +12,13 @@ from rich.table import Table
 
 from ncscope.explanation import Explanation, Whereabouts
 from ncscope.frames import Array
-from ncscope.trajectory import MOTIONS, NO_BLOCK, Stretch, Trajectory
+from ncscope.motion import MOTIONS
+from ncscope.trajectory import NO_BLOCK, Stretch, Trajectory
 
 FIRST, LAST = 40, 10
 """A long run is shortened to its first and last moves."""
+BETWEEN = "-"
+"""In the column of the block number: a point on the way to the end of the block."""
 
 
 def run_table(result: Trajectory, whole: bool = False) -> Table:
@@ -67,6 +70,7 @@ def _cells(
 ) -> Iterator[list[str]]:
     """A row for each system, and one for the tool direction below X, Y and Z."""
     block = "" if s.block[i] == NO_BLOCK else str(s.block[i])
+    block = block if s.end[i] else BETWEEN
     feed = "" if np.isnan(s.feed[i]) else f"{s.feed[i]:g}"
     head = [str(s.line[i]), block, MOTIONS[s.motion[i]], feed]
     for k, system in enumerate(systems):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ncscope.channel.circle import CIRCULAR
 from ncscope.channel.contour import set_contour, turn_off, turn_on
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number
@@ -85,6 +86,8 @@ def suppress(draft: Draft, command: tree.HashCommand) -> None:
     if not words:
         what = "#SUPPRESS OFFSETS needs an axis and its position"
         draft.fail("N1005", command.span, what, "write for example #SUPPRESS OFFSETS X50")
+    if draft.modes.motion in CIRCULAR:
+        draft.later(command.span, "an arc (G02, G03) with #SUPPRESS OFFSETS")
     chain = draft.state.coordinates.suppressed(_kinds(draft, command))
     program = chain.to_program(draft.state.position.axes, near=draft.state.position.program)
     for axis, (value, _) in words.items():

@@ -1,0 +1,105 @@
+"""The motion of a block: where its axis words lead, and on which path.
+
+Source: TF5200 programming manual, G00 to G03, G100; TF5200 coordinate systems and offsets.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ncscope.channel import circle, measuring
+from ncscope.channel.draft import Draft
+from ncscope.diagnostics import Span
+from ncscope.frames import Array
+
+if TYPE_CHECKING:
+    from ncscope.channel.words import Words
+
+
+def motion(draft: Draft, words: Words) -> None:
+    """G00 to G03 to the axis words of the block, G100 to its target."""
+    if 100 in words.gfunctions:
+        return _measure(draft, words)
+    circular = draft.modes.motion in circle.CIRCULAR
+    centre = circle.centre_words(draft, words)
+    if not circular:
+        _ignored(draft, centre)
+    elif not words.axes and not centre:
+        words.addresses.pop("R", None)  # the radius is stored for the arcs to come
+        return None
+    if circular:
+        _travel_arc(draft, words, centre)
+    elif words.axes:
+        target = _target(draft, words)
+        span = next(iter(words.axes.values()))[1]
+        _check_feed(draft, span)
+        draft.move_to(target, span, direction=_direction_word(draft, words))
+    words.axes.clear()
+    return None
+
+
+def _travel_arc(draft: Draft, words: Words, centre: dict[int, circle.Word]) -> None:
+    span = next(iter((*words.axes.values(), *centre.values())))[1]
+    target = _target(draft, words)
+    path = circle.arc(draft, words, centre, target, span)
+    _check_feed(draft, span)
+    draft.move_to(target, span, arc=path, direction=_direction_word(draft, words))
+
+
+def _direction_word(draft: Draft, words: Words) -> Span | None:
+    """The first word of the block that gives the tool direction."""
+    active = draft.state.coordinates.kinematics
+    columns = () if active is None else active.model.orientation
+    return next((words.axes[axis][1] for axis in columns if axis in words.axes), None)
+
+
+def _ignored(draft: Draft, centre: dict[int, circle.Word]) -> None:
+    for axis, (_, span) in centre.items():
+        letter = circle.CENTRE_LETTERS[axis]
+        draft.warn("20048", span, f"{letter} has no effect in a linear block")
+
+
+def _target(draft: Draft, words: Words) -> Array:
+    """Programmed values (n,) at the end of the block."""
+    program = np.array(draft.state.position.program)
+    for axis, (value, _span) in words.axes.items():
+        length = draft.length(axis, value)
+        program[axis] = length if draft.modes.absolute else program[axis] + length
+        _check_modulo(draft, axis, words, float(program[axis]))
+    return program
+
+
+def _check_feed(draft: Draft, span: Span) -> None:
+    modes = draft.modes
+    if modes.motion != "G00" and modes.feed is None and not modes.feed_warned:
+        draft.warn("20008", span, "a feed motion is programmed without a feed (F)")
+        draft.modal(feed_warned=True)
+
+
+def _measure(draft: Draft, words: Words) -> None:
+    """G100 X100: a feed motion to the target, where the probe triggers."""
+    word = words.gfunctions.pop(100)
+    if not words.axes:
+        draft.fail("N2025", word.span, "G100 needs at least one axis with its target")
+    axes, modal = tuple(words.axes), draft.modes.motion
+    draft.modal(motion="G01")
+    motion(draft, words)
+    draft.modal(motion=modal)
+    measuring.record(draft, axes, word.span)
+
+
+def _check_modulo(draft: Draft, axis: int, words: Words, value: float) -> None:
+    """On a modulo axis a sign is a turning direction, and values wrap; neither is modelled, so
+    only values for which it makes no difference pass."""
+    limits = draft.state.axes[axis].modulo_range
+    active = draft.state.coordinates.kinematics
+    in_space = active is not None and axis in active.model.orientation
+    if limits is None or in_space:
+        return
+    signed = draft.modes.absolute and axis in words.signed
+    if signed or not limits[0] <= value < limits[1]:
+        name = draft.state.axes[axis].name
+        what = "a sign" if signed else f"a value outside {limits[0]:g} to {limits[1]:g} degrees"
+        draft.later(words.axes[axis][1], f"{what} on the modulo axis {name}")

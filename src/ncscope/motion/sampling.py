@@ -1,0 +1,268 @@
+"""Points along many paths at once, so close that straight lines between them stay in a tolerance.
+
+Enters: paths under one `Coordinates`. Leaves: rows with the path each belongs to, ordered along
+the paths. The chord error is the largest of three: between the tool tip and a straight line
+between points in the machine system, between each axis and the straight line between its values,
+and between the tool tip and where the tool would be if the axes ran on those straight lines.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ncscope.coordinates import Coordinates
+from ncscope.frames import Array
+from ncscope.kinematics.universal import KinematicsError
+from ncscope.motion.arc import Arc
+
+FINEST = 1e-4
+"""mm and degrees; the smallest tolerance: the resolution of the control."""
+MOST_POINTS = 100_000
+"""Points of one arc; an arc that needs more is sampled coarser, and reported."""
+DEEPEST = 16
+"""Halvings of a motion; what still deviates then jumps, as an axis does near a pole."""
+_PROBES = np.array([0.25, 0.5, 0.75])
+
+
+@dataclass(frozen=True)
+class Paths:
+    """m paths in programmed values. start, end: (m, n) mm and degrees. arcs: row -> its arc."""
+
+    start: Array
+    end: Array
+    arcs: Mapping[int, Arc]
+
+    def __len__(self) -> int:
+        return len(self.end)
+
+    @cached_property
+    def _arc_of_row(self) -> NDArray[np.int64]:
+        """Place of the arc of each row in the columns of `_arc_columns`, -1 for a straight path."""
+        places = np.full(len(self), -1, dtype=np.int64)
+        places[list(self.arcs)] = np.arange(len(self.arcs))
+        return places
+
+    @cached_property
+    def _arc_columns(self) -> tuple[NDArray[np.int64], Array]:
+        """Plane axes (a, 2), and (a, 6): centre, start angle, sweep, start radius, end radius."""
+        axes = np.array([arc.axes for arc in self.arcs.values()], dtype=np.int64).reshape(-1, 2)
+        values = [
+            (*arc.centre, arc.start_rad, arc.sweep_rad, arc.start_radius, arc.end_radius)
+            for arc in self.arcs.values()
+        ]
+        return axes, np.array(values, dtype=float).reshape(-1, 6)
+
+    def at(self, row: NDArray[np.int64], share: Array) -> Array:
+        """Programmed values (k, n) at shares (k,) of the paths `row` (k,); 1 is exactly the end."""
+        column = share[:, None]
+        points = self.start[row] + column * (self.end[row] - self.start[row])
+        if self.arcs:
+            self._bend(points, row, share)
+        return np.where(column == 1.0, self.end[row], points)
+
+    def _bend(self, points: Array, row: NDArray[np.int64], share: Array) -> None:
+        """Writes the plane coordinates of the points that lie on arcs."""
+        own = np.flatnonzero(self._arc_of_row[row] >= 0)
+        place = self._arc_of_row[row[own]]
+        axes, values = self._arc_columns
+        first, second, begin, sweep, radius, last = values[place].T
+        angle = begin + share[own] * sweep
+        radius = radius + share[own] * (last - radius)
+        points[own, axes[place, 0]] = first + radius * np.cos(angle)
+        points[own, axes[place, 1]] = second + radius * np.sin(angle)
+
+
+@dataclass(frozen=True)
+class Points:
+    """row: (k,) the path of each point. share: (k,) 1 at the end of a path. pcs, acs: (k, n).
+    coarse: paths whose chord error could not be brought below the tolerance."""
+
+    row: NDArray[np.int64]
+    share: Array
+    pcs: Array
+    acs: Array
+    coarse: tuple[int, ...]
+
+
+def needs_points(coordinates: Coordinates, paths: Paths) -> bool:
+    """Whether a straight line between the ends of some path is not the path itself."""
+    return bool(paths.arcs) or _bent(coordinates)
+
+
+def _bent(coordinates: Coordinates) -> bool:
+    """Whether straight lines of the program are none of the axes."""
+    return coordinates.kinematics is not None or coordinates.program_step is not None
+
+
+def sample(
+    coordinates: Coordinates, paths: Paths, acs: Array, near: Array, tolerance: float
+) -> Points:
+    """Points along the paths with a chord error below `tolerance` (mm and degrees).
+
+    acs: (m, n) axis positions at the ends; near: (n,) before the first path.
+    Raises ValueError for a tolerance below FINEST.
+    """
+    if not tolerance >= FINEST:
+        raise ValueError(f"the tolerance has to be {FINEST:g} or more")
+    before = np.concatenate([near[None], acs[:-1]])
+    row, share, coarse = _breaks(coordinates, paths, tolerance)
+    start = np.concatenate([[0.0], share[:-1]]) * (share > np.roll(share, 1))
+    open_, done = _Segments.between(coordinates, paths, row, start, share, before), []
+    curved = _bent(coordinates) or any(a.is_spiral for a in paths.arcs.values())
+    for depth in range(DEEPEST if curved else 0):
+        bad, broken = _deviating(coordinates, paths, open_, tolerance)
+        coarse |= set(open_.row[broken].tolist())
+        done.append(open_.part(~bad))
+        open_ = open_.part(bad)
+        if not len(open_):
+            break
+        if depth == DEEPEST - 1:
+            coarse |= set(open_.row.tolist())
+        else:
+            open_ = open_.halved(coordinates, paths)
+    return _ordered([*done, open_], acs, tuple(sorted(coarse)))
+
+
+@dataclass(frozen=True)
+class _Segments:
+    """k pieces of paths between two shares, with the values at both."""
+
+    row: NDArray[np.int64]
+    start: Array
+    stop: Array
+    pcs: tuple[Array, Array]
+    acs: tuple[Array, Array]
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+    @classmethod
+    def between(
+        cls,
+        coordinates: Coordinates,
+        paths: Paths,
+        row: NDArray[np.int64],
+        start: Array,
+        stop: Array,
+        near: Array,
+    ) -> _Segments:
+        """The pieces from `start` to `stop` of each row; near: (m, n) axes before each path."""
+        pcs = paths.at(row, start), paths.at(row, stop)
+        after = _axes(coordinates, pcs[1], near[row])
+        before = np.where((start == 0.0)[:, None], near[row], np.roll(after, 1, axis=0))
+        return cls(row, start, stop, pcs, (before, after))
+
+    def part(self, wanted: NDArray[np.bool_]) -> _Segments:
+        pcs = self.pcs[0][wanted], self.pcs[1][wanted]
+        acs = self.acs[0][wanted], self.acs[1][wanted]
+        return _Segments(self.row[wanted], self.start[wanted], self.stop[wanted], pcs, acs)
+
+    def halved(self, coordinates: Coordinates, paths: Paths) -> _Segments:
+        middle = (self.start + self.stop) / 2
+        pcs = paths.at(self.row, middle)
+        acs = _axes(coordinates, pcs, self.acs[0])
+        return _Segments(
+            np.concatenate([self.row, self.row]),
+            np.concatenate([self.start, middle]),
+            np.concatenate([middle, self.stop]),
+            (np.concatenate([self.pcs[0], pcs]), np.concatenate([pcs, self.pcs[1]])),
+            (np.concatenate([self.acs[0], acs]), np.concatenate([acs, self.acs[1]])),
+        )
+
+
+def _breaks(
+    coordinates: Coordinates, paths: Paths, tolerance: float
+) -> tuple[NDArray[np.int64], Array, set[int]]:
+    """The first points: the ends of straight paths, equal angles on arcs."""
+    counts = np.ones(len(paths), dtype=np.int64)
+    coarse = set()
+    for index, arc in paths.arcs.items():
+        scale = coordinates.contour.factors(coordinates.axis_count)[arc.axes[0]]
+        wanted = _arc_points(arc, float(scale) * arc.radius, tolerance)
+        if wanted > MOST_POINTS:
+            coarse.add(index)
+        counts[index] = min(wanted, MOST_POINTS)
+    row = np.repeat(np.arange(len(paths)), counts)
+    first = np.repeat(np.cumsum(counts) - counts, counts)
+    share = (np.arange(len(row)) - first + 1) / counts[row]
+    return row, share, coarse
+
+
+def _arc_points(arc: Arc, radius: float, tolerance: float) -> int:
+    """Segments of an arc whose sagitta is below the tolerance; at least four a full turn."""
+    flat = max(-1.0, 1.0 - tolerance / radius)
+    step = min(math.pi / 2 * (1 + 1e-9), 2 * math.acos(flat) * (1 - 1e-6))
+    step = max(step, 1e-9)
+    return max(1, math.ceil(abs(arc.sweep_rad) / step))
+
+
+def _deviating(
+    coordinates: Coordinates, paths: Paths, pieces: _Segments, tolerance: float
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which pieces deviate too much between their ends, and which cannot be followed there."""
+    error = np.zeros(len(pieces))
+    tips = _tips(coordinates, pieces.acs[0]), _tips(coordinates, pieces.acs[1])
+    turned = _whole_turns(coordinates, pieces.acs[1] - pieces.acs[0])
+    for share in _PROBES:
+        at = pieces.start + share * (pieces.stop - pieces.start)
+        acs = _axes(coordinates, paths.at(pieces.row, at), pieces.acs[0])
+        chord = pieces.acs[0] + share * (pieces.acs[1] - turned - pieces.acs[0])
+        apart = acs - chord
+        apart -= _whole_turns(coordinates, apart)
+        tip = _tips(coordinates, acs)
+        line = tips[0] + share * (tips[1] - tips[0])
+        for other in (line, _tips(coordinates, chord)):
+            error = np.maximum(error, np.sqrt(((tip - other) ** 2).sum(axis=1)))
+        error = np.maximum(error, np.abs(apart).max(axis=1))
+    broken = ~np.isfinite(error)
+    return (error > tolerance) & ~broken, broken
+
+
+def _tips(coordinates: Coordinates, acs: Array) -> Array:
+    """Tool tip (k, 3) in the workpiece of the kinematics; the main axes without a kinematics."""
+    active = coordinates.kinematics
+    if active is None:
+        return acs[:, :3]
+    return active.model.forward(acs, tool_length=coordinates.tool.length)[0]
+
+
+def _whole_turns(coordinates: Coordinates, difference: Array) -> Array:
+    """Full turns in a difference of axis values, where the kinematics computes the angles: they
+    are only defined up to full turns then."""
+    result = np.zeros_like(difference)
+    active = coordinates.kinematics
+    if active is not None and active.model.orientation:
+        result[:, 3:] = 360.0 * np.round(difference[:, 3:] / 360.0)
+    return result
+
+
+def _axes(coordinates: Coordinates, pcs: Array, near: Array) -> Array:
+    """Axis positions (k, n), each near its own row; NaN where the machine cannot get."""
+    try:
+        return coordinates.to_axes(pcs, near=near)
+    except KinematicsError as error:
+        good = np.ones(len(pcs), dtype=bool)
+        good[list(error.rows)] = False
+    result = np.full(pcs.shape, np.nan)
+    if good.any():
+        result[good] = coordinates.to_axes(pcs[good], near=near[good])
+    return result
+
+
+def _ordered(parts: list[_Segments], acs: Array, coarse: tuple[int, ...]) -> Points:
+    """The ends of all pieces along the paths, without those that have no axis position."""
+    row = np.concatenate([p.row for p in parts])
+    share = np.concatenate([p.stop for p in parts])
+    pcs = np.concatenate([p.pcs[1] for p in parts])
+    positions = np.concatenate([p.acs[1] for p in parts])
+    ends = share == 1.0
+    positions[ends] = acs[row[ends]]
+    order = np.lexsort((share, row))
+    order = order[np.isfinite(positions[order]).all(axis=1)]
+    return Points(row[order], share[order], pcs[order], positions[order], coarse)
