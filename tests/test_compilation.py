@@ -34,3 +34,15 @@ def compiled_functions(cache: Path) -> int:
 def test_code_is_compiled_once_and_the_listener_hears_of_it(tmp_path):
     assert compiled_functions(tmp_path) > 0
     assert compiled_functions(tmp_path) == 0
+
+
+def test_a_run_without_kinematics_does_not_load_numba():
+    arguments = [EXAMPLES / "machines" / "xyz", EXAMPLES / "programs" / "cs_3.nc"]
+    script = "import sys" + SCRIPT + "print('numba' in sys.modules)"
+    found = subprocess.run(
+        [sys.executable, "-c", script, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert found.stdout.split() == ["0", "False"]
