@@ -18,6 +18,7 @@ from ncscope.cli.kin import kin_app
 from ncscope.cli.run import run_command
 from ncscope.cli.screen import announce_compiling
 from ncscope.cli.where import where_command
+from ncscope.cli.workbench import workbench_command
 
 app = typer.Typer(
     add_completion=False,
@@ -30,6 +31,7 @@ app.command("explain")(explain_command)
 app.command("where")(where_command)
 app.command("check")(check_command)
 app.add_typer(kin_app, name="kin")
+app.command("workbench")(workbench_command)
 
 
 def _version(wanted: bool) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any, TextIO
 
 import numpy as np
@@ -57,6 +58,15 @@ def write_csv(out: TextIO, result: Trajectory) -> None:
     for stretch in result.stretches:
         for text in _csv_moves(stretch, result.axes):
             out.write(text)
+
+
+def move_record(result: Trajectory, index: int) -> str:
+    """The line of one move, by its row. Raises IndexError without such a row."""
+    stretch, row = result.place(index)
+    one = slice(row, row + 1)
+    columns = ("line", "block", "motion", "feed", "pcs", "acs")
+    part = replace(stretch, **{name: getattr(stretch, name)[one] for name in columns})
+    return next(_json_moves(part, index))
 
 
 def diagnostic_record(item: Diagnostic) -> dict[str, Any]:

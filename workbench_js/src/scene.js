@@ -1,0 +1,195 @@
+// The middle of the page: path, coordinate systems and machine, and the picking of a move.
+
+import * as THREE from "three";
+import { AXIS_COLOURS as AXIS, button, colour, el, fill, onTheme } from "./dom.js";
+import { release } from "./labels.js";
+import { poseAt } from "./path.js";
+import { on, rowOf, selectRow, stopPlaying, store } from "./store.js";
+import { ToolPath } from "./tool_path.js";
+import { triads } from "./triads.js";
+import { View } from "./view.js";
+
+const BUDGET = { software: 60_000, hardware: 1_500_000 };
+const REACH = 9;
+
+export class Scene {
+  constructor(host) {
+    this.host = host;
+    host.classList.add("nc-scene");
+    this.mode = "motion";
+    this.bar = el("div", { class: "nc-scene-bar" });
+    this.legend = el("div", { class: "nc-legend" });
+    host.append(this.bar, this.legend);
+    this.view = this.makeView(host);
+    if (!this.view) return;
+    this.world = new THREE.Group();
+    this.view.scene.add(this.world);
+    this.tip = tipMark();
+    this.world.add(this.tip);
+    this.fillBar();
+    this.ends = [
+      on("result", ({ sameProgram }) => this.takePath(sameProgram)),
+      on("cursor", () => this.moveCursor()),
+      on("place", () => this.mark()),
+      on("block", () => this.takeSystems()),
+      onTheme(() => { this.paint(); this.takeSystems(); this.mark(); }),
+    ];
+    if (store.revision) { this.takePath(false); this.takeSystems(); }
+  }
+
+  makeView(host) {
+    try {
+      return new View(host, {
+        click: (x, y) => this.click(x, y),
+        changed: (moving) => this.detail(moving),
+      });
+    } catch {
+      host.append(el("div", { class: "nc-empty" }, "This browser has no WebGL: the picture cannot be drawn."));
+      return null;
+    }
+  }
+
+  fillBar() {
+    const side = (name, text, key) => button(text, `${name} view (${key})`, () => this.view.look(name));
+    this.lens = button("ortho", "orthographic or perspective (O)", () => this.toggleLens());
+    this.colours = el("select", { class: "nc-select", "aria-label": "colour of the path", onchange: () => {
+      this.mode = this.colours.value;
+      this.paint();
+    } });
+    fill(this.bar,
+      side("iso", "iso", "0"), side("top", "top", "1"), side("front", "front", "2"), side("right", "right", "3"),
+      button("fit", "fit the path into the view (F)", () => this.view.fit(this.sphere())), this.lens, this.colours,
+    );
+    this.fillColours();
+  }
+
+  fillColours() {
+    const choices = [["motion", "rapid and feed"], ["system", "coordinate system"], ...store.path.axisNames.map((a) => [a, `axis ${a}`])];
+    if (!choices.some(([value]) => value === this.mode)) this.mode = "motion";
+    fill(this.colours, choices.map(([value, text]) => el("option", { value, selected: value === this.mode }, text)));
+  }
+
+  toggleLens() {
+    this.lens.textContent = this.view.toggleLens() ? "persp" : "ortho";
+  }
+
+  // --- what is shown ---------------------------------------------------------------------------
+
+  takePath(keepView) {
+    this.path?.dispose();
+    this.path = new ToolPath(store.path);
+    this.path.group.position.set(...store.path.origin);
+    this.world.position.set(...store.path.origin.map((v) => -v));
+    this.world.add(this.path.group);
+    this.fillColours();
+    this.paint();
+    this.detail(false);
+    this.moveCursor();
+    if (!keepView) this.view.fit(this.sphere());
+    this.view.draw();
+  }
+
+  sphere() {
+    const radius = Math.max(this.path?.sphere.radius ?? 50, 1);
+    return new THREE.Sphere(new THREE.Vector3(), radius * 1.1);
+  }
+
+  paint() {
+    this.path?.paint(this.mode);
+    this.showLegend();
+    this.view.draw();
+  }
+
+  showLegend() {
+    const entry = (shade, text) => el("span", { class: "nc-legend-entry" }, el("i", { style: `background:${shade}` }), text);
+    if (this.mode === "motion") fill(this.legend, entry(colour("rapid"), "rapid"), entry(colour("feed"), "feed"));
+    else if (this.mode === "system") {
+      fill(this.legend, store.path.systems.slice(0, 12).map((name, i) => entry(AXIS[i % AXIS.length], name)));
+    } else if (this.path && store.path.moves) {
+      const [low, high] = this.path.range(store.path.axisNames.indexOf(this.mode));
+      fill(this.legend, entry("#2c4fd8", low.toFixed(2)), entry("#d8402c", high.toFixed(2)));
+    }
+  }
+
+  detail(moving) {
+    if (!this.path) return;
+    const budget = this.view.software ? BUDGET.software : BUDGET.hardware;
+    const close = this.view.camera.zoom > 4;
+    this.path.detail((moving || store.playing) && !close ? budget : Infinity);
+  }
+
+  takeSystems() {
+    if (this.systems) release(this.systems);
+    this.systems = null;
+    const found = store.block?.systems ?? [];
+    if (found.length) {
+      this.systems = triads(found, this.sphere().radius * 0.22);
+      this.world.add(this.systems);
+    }
+    this.view.draw();
+  }
+
+  mark() {
+    if (!this.path) return;
+    this.path.select(rowOf(store.cursor), store.runs, this.view.width, this.view.height);
+    this.view.draw();
+  }
+
+  moveCursor() {
+    const pose = poseAt(store.path, store.cursor);
+    this.tip.visible = pose !== null;
+    if (pose) this.tip.position.set(...pose.tip.map((v, k) => v + store.path.origin[k]));
+    if (store.playing !== this.wasPlaying) { this.wasPlaying = store.playing; this.detail(false); }
+    this.mark();
+  }
+
+  click(x, y) {
+    if (!this.path) return;
+    const row = this.path.pick(this.view.camera, this.view.width, this.view.height, x, y, REACH);
+    if (row < 0) return;
+    stopPlaying();
+    selectRow(row, "scene");
+  }
+
+  key(key) {
+    const sides = { 0: "iso", 1: "top", 2: "front", 3: "right" };
+    if (key in sides) this.view.look(sides[key]);
+    else if (key === "f") this.view.fit(this.sphere());
+    else if (key === "o") this.toggleLens();
+    else return false;
+    return true;
+  }
+
+  /** Where a move is on the page: for tests. */
+  pixelOf(row, part = 0.5) {
+    const pose = poseAt(store.path, row + part);
+    const point = new THREE.Vector3(...pose.tip).applyMatrix4(this.path.group.matrixWorld).project(this.view.camera);
+    const box = this.view.renderer.domElement.getBoundingClientRect();
+    return [box.left + (point.x * 0.5 + 0.5) * this.view.width, box.top + (0.5 - point.y * 0.5) * this.view.height];
+  }
+
+  dispose() {
+    for (const end of this.ends ?? []) end();
+    this.path?.dispose();
+    this.view?.dispose();
+  }
+}
+
+function tipMark() {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 32;
+  const context = canvas.getContext("2d");
+  context.beginPath();
+  context.arc(16, 16, 11, 0, 2 * Math.PI);
+  context.fillStyle = "#ffffff";
+  context.fill();
+  context.lineWidth = 6;
+  context.strokeStyle = "#d6409f";
+  context.stroke();
+  const material = new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), depthTest: false, sizeAttenuation: false });
+  const sprite = new THREE.Sprite(material);
+  sprite.userData.pixels = [13, 13];
+  sprite.renderOrder = 9;
+  sprite.visible = false;
+  return sprite;
+}
