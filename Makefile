@@ -8,11 +8,11 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test check format docs bench clean
+.PHONY: demo test check format docs bench workbench-js clean
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev,table]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev,table,workbench,browser]"
 	touch $(STAMP)
 
 demo: $(STAMP)
@@ -40,6 +40,10 @@ docs: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python benchmarks/bench.py --long 10000000
+
+# The scripts of the workbench: needs node and npm; the result is checked in.
+workbench-js:
+	cd workbench_js && npm ci --no-audit --no-fund && npm run build && npm test
 
 clean:
 	rm -rf $(VENV) build

@@ -97,7 +97,8 @@ def run(
     """Every motion block of the program, in all coordinate systems.
 
     program: from `load_program`, or NC text. progress: called now and then with the offset in the
-    text that was reached. What is wrong with the program is in `Trajectory.diagnostics`.
+    text that was reached; what it raises ends the run. What is wrong with the program is in
+    `Trajectory.diagnostics`.
     Raises KeyError for a clamp position that the machine does not have.
     """
     options = options or Options()
@@ -134,6 +135,7 @@ def _walk(loop: _Loop, progress: Progress | None) -> None:
         message = "the file has subprograms only: a main program begins with % and its name"
         loop.add([diagnostic("20368", table.entries[0].block.span, message)])
     walker = Walker(loop.machine, table, loop.options.load, loop.options.skip)
+    reached = 0
     while not loop.over:
         entry = walker.entry
         if entry is None:
@@ -148,8 +150,9 @@ def _walk(loop: _Loop, progress: Progress | None) -> None:
             loop.take(entry.block, entry.found)
         if not loop.over:
             _go_on(loop, walker)
-        if progress is not None and not walker.calls:
-            progress(entry.block.span.start)
+        if progress is not None:
+            reached = reached if walker.calls else entry.block.span.start
+            progress(reached)
     if loop.ended and walker.calls:
         assert entry is not None
         loop.add([diagnostic("20377", entry.block.span, "the program ends inside a subprogram")])

@@ -194,13 +194,13 @@ class Trajectory:
 
     def explain_move(self, index: int) -> Explanation:
         """The layers of one move by its row. Raises IndexError without such a row."""
-        s, row = self.place(index)
+        s, row = self.locate(index)
         block = None if s.block[row] == NO_BLOCK else int(s.block[row])
         near = s.acs[row - 1] if row else s.start
         layers = s.coordinates.layers(s.pcs[row], near=near)
         return Explanation(s.file, int(s.line[row]), block, s.axes, layers)
 
-    def place(self, index: int) -> tuple[Stretch, int]:
+    def locate(self, index: int) -> tuple[Stretch, int]:
         """The stretch that holds a move, and the row there. Raises IndexError."""
         row = index
         for s in self.stretches if index >= 0 else ():

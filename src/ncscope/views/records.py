@@ -62,7 +62,7 @@ def write_csv(out: TextIO, result: Trajectory) -> None:
 
 def move_record(result: Trajectory, index: int) -> str:
     """The line of one move, by its row. Raises IndexError without such a row."""
-    stretch, row = result.place(index)
+    stretch, row = result.locate(index)
     one = slice(row, row + 1)
     columns = ("line", "block", "motion", "feed", "pcs", "acs")
     part = replace(stretch, **{name: getattr(stretch, name)[one] for name in columns})

@@ -10,7 +10,7 @@ from typing import Any
 from nicegui import ui
 
 
-class Pane(ui.element, component="static/pane.js", esm={"ncscope-workbench": "static/dist"}):  # type: ignore[call-arg]
+class Pane(ui.element, component="static/pane.js", esm={"ncscope-workbench": "static/dist"}):
     """One part of the page. kind: `code`, `scene`, `display`, `timeline`, `messages`, `jog`,
     `status`; the status pane also receives the state of the session."""
 

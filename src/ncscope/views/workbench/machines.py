@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from ncscope.kinematics import Chain, KinematicsError, UniversalKinematics, validate
+from ncscope.kinematics import Chain, KinematicsError, UniversalKinematics, explain_status
 from ncscope.kinematics.chain import LINEAR
-from ncscope.kinematics.parameters import INDEX_OF_FIELD
+from ncscope.kinematics.poses import Poses, poses_of_axes, poses_of_tool
 from ncscope.machine import Machine
-
-POSES = (1, -1)
 
 
 def machine_view(machine: Machine) -> dict[str, Any]:
@@ -31,13 +28,13 @@ def machine_view(machine: Machine) -> dict[str, Any]:
 
 
 def _chains(machine: Machine) -> dict[int, Chain]:
-    mode = machine.settings.orientation_mode
-    names = machine.axis_names
-    return {
-        id: Chain.from_parameters(parameters, mode)
-        for id, parameters in machine.kinematic_parameters.items()
-        if not validate(parameters, len(names), mode, names)
-    }
+    found = {}
+    for id in machine.kinematic_parameters:
+        try:
+            found[id] = _kinematics(machine, id).chain
+        except KinematicsError:
+            continue  # `check` says what is wrong with it
+    return found
 
 
 def model_view(machine: Machine, model: Any) -> dict[str, Any] | None:
@@ -71,11 +68,12 @@ def chain_view(machine: Machine, id: int, chain: Chain) -> dict[str, Any]:
 
 
 def jog_forward(machine: Machine, id: int, axes: list[float], length: float) -> dict[str, Any]:
-    """Tool tip (mm), direction (tip -> flange) and pose. Raises KinematicsError and KeyError."""
-    model = machine.kinematics[id]
-    tip, direction = model.forward(_padded(axes, machine), tool_length=length)
-    pose = int(_directed(machine, id).pose_of(axes)) if _has_poses(model) else None
-    return {"tip": tip.tolist(), "direction": direction.tolist(), "pose": pose}
+    """Tool tip (mm), direction (tip -> flange), pose and condition numbers of axis positions.
+
+    Raises KinematicsError and KeyError.
+    """
+    kin = _kinematics(machine, id)
+    return _pose(kin, poses_of_axes(kin, _row(kin, axes), length), 0)
 
 
 def jog_inverse(
@@ -88,41 +86,41 @@ def jog_inverse(
 ) -> list[dict[str, Any]]:
     """Axis positions for tool tip (mm) and direction, one entry for each pose.
 
-    An entry has `axes`, or `problem` where the machine cannot get there.
-    Raises KinematicsError and KeyError.
+    An entry has `problem` where the machine cannot get there. Raises KinematicsError, KeyError.
     """
-    model = _directed(machine, id)
-    program = np.zeros(max(6, len(machine.axes)))
-    program[:3] = tip
-    found = []
-    for pose in POSES:
-        try:
-            axes = model.inverse(
-                program, tool_length=length, near=_padded(near, machine), pose=pose,
-                direction=direction,
-            )  # fmt: skip
-        except KinematicsError as error:
-            found.append({"pose": pose, "problem": f"{error.id}: {error.message}"})
-            continue
-        found.append({"pose": pose, "axes": axes[: len(machine.axes)].tolist()})
-    return found
+    kin = _kinematics(machine, id)
+    if not any(direction):
+        raise KinematicsError("292007", "the tool direction is the zero vector")
+    unit = np.asarray(direction, float) / np.linalg.norm(direction)
+    found = poses_of_tool(kin, [tip], [unit], length, _row(kin, near), both=True)
+    return [_pose(kin, found, row) for row in range(len(found))]
 
 
-def _directed(machine: Machine, id: int) -> UniversalKinematics:
-    """The kinematics as a complete transformation, which takes a tool direction."""
-    parameters = machine.kinematic_parameters[id]
-    values = list(parameters.values)
-    values[INDEX_OF_FIELD["rtcp"]] = 0.0
-    mode = machine.settings.orientation_mode
-    complete = replace(parameters, values=tuple(values))
-    return UniversalKinematics.from_parameters(complete, machine.axis_names, mode)
+def _kinematics(machine: Machine, id: int) -> UniversalKinematics:
+    if id not in machine.kinematic_parameters:
+        raise KeyError(f"the lists configure no kinematics {id}")
+    kin = machine.kinematics[id]
+    if not isinstance(kin, UniversalKinematics):
+        raise KinematicsError("N2001", f"kinematics {id} is not of type 91")
+    return kin
 
 
-def _has_poses(model: UniversalKinematics) -> bool:
-    return 0 < len(model.chain.rotary) <= 2
+def _pose(kin: UniversalKinematics, found: Poses, row: int) -> dict[str, Any]:
+    if found.status[row]:
+        id, message = explain_status(kin, int(found.status[row]))
+        return {"pose": int(found.pose[row]), "problem": f"{id}: {message}"}
+    return {
+        "pose": int(found.pose[row]) if 0 < len(kin.chain.rotary) <= 2 else None,
+        "axes": found.axes[row].tolist(),
+        "program": found.program[row].tolist(),
+        "tip": found.tip[row].tolist(),
+        "direction": found.direction[row].tolist(),
+        "condition": [float(found.linear[row]), float(found.rotary[row])],
+    }
 
 
-def _padded(axes: list[float], machine: Machine) -> np.ndarray:
-    values = np.zeros(max(6, len(machine.axes)))
-    values[: len(axes)] = axes
-    return values
+def _row(kin: UniversalKinematics, values: list[float]) -> np.ndarray:
+    """Axis positions of the whole channel; 0 for those that were not given."""
+    row = np.zeros(len(kin.axis_names))
+    row[: len(values)] = values[: len(row)]
+    return row

@@ -14,7 +14,7 @@ from ncscope.views.records import move_record
 
 def move_view(result: Trajectory, index: int) -> dict[str, Any]:
     """The move at a row of the run. Raises IndexError without such a row."""
-    stretch, _ = result.place(index)
+    stretch, _ = result.locate(index)
     return {
         "move": orjson.loads(move_record(result, index)),
         "explanation": result.explain_move(index).as_dict(),

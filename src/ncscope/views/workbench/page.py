@@ -153,4 +153,7 @@ def _tell_page(session: Session, status: Pane, choices: Choices) -> None:
             if choice.value != value:
                 choice.set_value(value)
 
-    session.changed = lambda: loop.call_soon_threadsafe(show)
+    def changed() -> None:
+        loop.call_soon_threadsafe(show)
+
+    session.changed = changed

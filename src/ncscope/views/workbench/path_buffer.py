@@ -30,8 +30,8 @@ SHORTEST = 1e-3
 """Seconds that every block takes at least in the playback."""
 
 
-def pack(result: Trajectory) -> bytes:
-    """The container for a run."""
+def pack(result: Trajectory, pole_distance: Array) -> bytes:
+    """The container for a run. pole_distance (moves,): degrees, see `Inspection`."""
     points, axes = _rows(result)
     finite = np.isfinite(points).all(axis=1)
     low, high = _bounds(points[finite])
@@ -45,6 +45,7 @@ def pack(result: Trajectory) -> bytes:
         "time": time.astype("<f8"),
         "line": result.line.astype("<u4"),
         "motion": _motion(result).astype("u1"),
+        "pole": pole_distance.astype("<f4"),
         "stretch_first": _firsts(result).astype("<u4"),
         "stretch_file": np.array([names.index(s.file) for s in result.stretches], "<u2"),
         "stretch_system": systems.astype("<u2"),

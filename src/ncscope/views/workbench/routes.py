@@ -42,6 +42,7 @@ from ncscope.views.workbench.session import Session, Sessions
 
 MOST_DIAGNOSTICS = 2000
 MOST_MESSAGES = 2000
+MOST_EVENTS = 5000
 MOST_BODY = 64_000_000
 """Bytes of a request: a whole text of a large program."""
 
@@ -147,12 +148,32 @@ def _result(session: Session, given: dict[str, Any], body: Any) -> Any:
         "diagnostics": [
             _diagnostic(d) for d in (*outcome.found, *result.diagnostics)[:MOST_DIAGNOSTICS]
         ],
+        "events": _events(outcome),
         "messages": [{"file": m.file, "text": m.text} for m in result.messages[:MOST_MESSAGES]],
     }
 
 
+def _events(outcome: Outcome) -> dict[str, Any]:
+    """What the curves mark: rows beyond travel limits, swings at the pole, turned-over axes."""
+    found = outcome.inspection
+    return {
+        "limits": [
+            {"axis": t.axis.name, "rows": rows[:MOST_EVENTS].tolist()}
+            for t in found.travel
+            for rows in (t.below, t.above)
+            if len(rows)
+        ],
+        "swings": [
+            {"axis": s.axis, "row": s.row, "last": s.last, "distance": s.distance, "swing": s.swing}
+            for s in found.swings[:MOST_EVENTS]
+        ],
+        "wraps": [{"axis": w.axis.name, "row": w.row} for w in found.wraps[:MOST_EVENTS]],
+    }
+
+
 def _path(session: Session, given: dict[str, Any], body: Any) -> Any:
-    content = pack(_outcome(session, given).trajectory)
+    outcome = _outcome(session, given)
+    content = pack(outcome.trajectory, outcome.inspection.pole_distance)
     headers = {"cache-control": "no-store", "content-encoding": "identity"}
     return Response(content, 200, headers, "application/octet-stream")
 

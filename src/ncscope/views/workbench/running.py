@@ -9,6 +9,7 @@ from pathlib import PurePosixPath
 
 from ncscope.diagnostics import Diagnostic, Source
 from ncscope.execution import Options, Program, run
+from ncscope.inspection import Inspection, inspect
 from ncscope.lists.check import check_loaded
 from ncscope.lists.document import ListDocument
 from ncscope.lists.files import ListFile, find_lists
@@ -46,7 +47,7 @@ class Outcome:
     trajectory: Trajectory
     found: tuple[Diagnostic, ...]
     files: dict[str, tuple[str, str]]
-    source: Source
+    inspection: Inspection
 
 
 def run_task(
@@ -74,7 +75,7 @@ def run_task(
             replace(task.options, load=load),
             lambda offset: progress(offset / length),
         )
-    return Outcome(machine, result, found, files, source)
+    return Outcome(machine, result, found, files, inspect(result))
 
 
 def _machine(
