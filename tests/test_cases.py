@@ -3,6 +3,7 @@
 `main.nc`      the program, or `program` with the name of one in examples/programs
 `machine`      name of a folder in examples/machines; without it, lists in the case folder; without
                those, axes X Y Z
+`probe.csv`    answers of the probe
 `options`      lines `skip 1 3`, `clamp 2`, `max_blocks 5`, `strict`, `sample 0.1`
 `known_bug`    why the case fails today; the case must be freed of it when it passes
 `expected.txt` one line per move, then diagnostics and messages:
@@ -92,6 +93,9 @@ def options_of(folder: Path) -> ncscope.Options:
             given[key] = float(values[0])
         else:
             given[key] = int(values[0]) if values else True
+    if (folder / "probe.csv").exists():
+        given["probe"], problems = ncscope.load_rows(folder / "probe.csv")
+        assert problems == ()
     return ncscope.Options(**given)
 
 

@@ -19,6 +19,7 @@ __all__ = [
     "inspect",
     "load_machine",
     "load_program",
+    "load_rows",
     "render",
     "run",
 ]
@@ -33,6 +34,7 @@ _HOME = {
     "inspect": "ncscope.inspection",
     "load_machine": "ncscope.lists",
     "load_program": "ncscope.loading",
+    "load_rows": "ncscope.loading",
     "render": "ncscope.diagnostics",
     "run": "ncscope.execution",
 }

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from ncscope.channel.block import Step, execute
 from ncscope.channel.draft import Message
 from ncscope.channel.flow import Load, Walker, open_warnings
+from ncscope.channel.given import GivenRows
 from ncscope.channel.start import start_state
 from ncscope.channel.state import State
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
@@ -48,6 +49,8 @@ class Options:
     of the program. The result is the same.
     load: the text of a subprogram file that the program calls, None where there is none; without
     it no file is found.
+    probe: the answers of the probe (`load_rows`), a row for each measuring run; without them it
+    triggers at the target.
     """
 
     clamp: int | None = None
@@ -57,6 +60,7 @@ class Options:
     bulk: bool | None = None
     load: Load | None = None
     sample: float | None = None
+    probe: GivenRows | None = None
 
     def __post_init__(self) -> None:
         """Raises ValueError for a tolerance below the resolution of the control."""
@@ -176,7 +180,7 @@ class _Loop:
 
     def __init__(self, machine: Machine, source: Source, options: Options) -> None:
         self.machine, self.source, self.options = machine, source, options
-        self.state = start_state(machine, options.clamp)
+        self.state = start_state(machine, options.clamp, options.probe)
         self.recorder, self.log = Recorder(source, options.sample), _Log()
         self.messages: list[Message] = []
         self.channels = [(0, self.state.axes)]
@@ -255,6 +259,8 @@ class _Loop:
     def result(self) -> Trajectory:
         if not self.over:
             self.log.add(_no_end(self.source), self.options.strict)
+        if not self.log.stop:
+            self.add(_unused(self.state.probe))
         self.recorder.close()
         self.add(self.recorder.complaints())
         done = Trajectory(
@@ -309,6 +315,16 @@ def _too_many(limit: int, span: Span, loop: Span | None) -> Diagnostic:
 def _return_in_main(span: Span) -> Diagnostic:
     hint = "the main program ends with M30"
     return diagnostic("20376", span, "M17 and M29 return from a subprogram", hint)
+
+
+def _unused(given: GivenRows | None) -> list[Diagnostic]:
+    """Rows that nobody asked for: the table was made for another program."""
+    row = given.next if given is not None else None
+    if given is None or row is None:
+        return []
+    left = len(given.rows) - given.used
+    message = f"{left} of {len(given.rows)} rows of {given.name} were not used"
+    return [diagnostic("N2044", row.span, message, "the first of them stands here")]
 
 
 def _no_end(source: Source) -> Diagnostic:

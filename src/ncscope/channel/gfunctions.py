@@ -61,7 +61,8 @@ def _rows() -> dict[int, GFunction]:
     add("112 115 116 117 127 128 129 130 131 132 133 134 135 136 137 230 231 232 233 333 334 "
         "335 336 337 338 339", None, None, "quiet", "dynamics, weights and feedforward")
     add("100", "measuring", "20123", "motion", "measuring run")
-    add("106 107 108 310", "measuring", "20123", "later", "measuring run")
+    add("106", None, None, "motion", "measuring run goes on to its target")
+    add("107 108 310", "measuring", "20123", "later", "measuring run")
     add("101 102", "measuring", "20123", "offset", "measured offset")
     add("150", None, None, "quiet", "spline off")
     add("151", None, None, "later", "spline")

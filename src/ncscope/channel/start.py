@@ -5,14 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from ncscope.channel import offsets
-from ncscope.channel.state import Kinematics, LengthAxis, Position, State
+from ncscope.channel.given import GivenRows
+from ncscope.channel.state import Kinematics, LengthAxis, Measuring, Position, State
 from ncscope.coordinates import Coordinates
 from ncscope.machine import Machine, OffsetRecord
 
 
-def start_state(machine: Machine, clamp_index: int | None = None) -> State:
+def start_state(
+    machine: Machine, clamp_index: int | None = None, probe: GivenRows | None = None
+) -> State:
     """The state at program start: all axes at 0, default zero offset, clamp offset if chosen.
 
+    probe: the answers of the probe, a row for each measuring run.
     Raises KeyError when the machine has no clamp position with this index.
     """
     n = len(machine.axes)
@@ -24,6 +28,8 @@ def start_state(machine: Machine, clamp_index: int | None = None) -> State:
         kinematics=_kinematics(machine),
         zero_offsets=machine.zero_offsets,
         tools=machine.tools,
+        measuring=Measuring(machine.settings.measuring_type, machine.settings.probe_must_answer),
+        probe=probe,
         length_axis=LengthAxis(2, 1.0) if machine.settings.tool_length_stays else None,
     )
     if clamp_index is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from ncscope.channel.given import GivenRows
 from ncscope.contour import Turn
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array, Frame
@@ -147,10 +148,26 @@ class Suspended:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A measured position and its difference to the target of G100; mm or degrees."""
+    """A measured position and its difference to the target of G100; mm or degrees.
+
+    value: in the system of V.A.MESS. program, axis: the programmed value and the axis position.
+    """
 
     value: float
     offset: float = 0.0
+    program: float = 0.0
+    axis: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Measuring:
+    """What #MEAS set: the type of measuring runs, and whether the probe must answer.
+
+    Source: P-CHAN-00057, P-CHAN-00176.
+    """
+
+    type: int = 1
+    must_answer: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,7 +190,7 @@ class State:
     systems: the stack of #CS ADD from bottom to top; selected: how many of them act.
     parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
     values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
-    #MCS is on. measured: what G100 measured, by axis name.
+    #MCS is on. measured: what G100 measured, by axis name. probe: the answers that are given.
     circle: the corrected I, J, K and R of the last arc, mm. message_file: where #MSG SAVE writes.
     """
 
@@ -200,6 +217,8 @@ class State:
     system_mode: SystemMode = field(default_factory=SystemMode)
     measured: Mapping[str, Measured] = field(default_factory=dict)
     circle: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    measuring: Measuring = field(default_factory=Measuring)
+    probe: GivenRows | None = None
     message_file: str = "message.txt"
     block: int | None = None
 

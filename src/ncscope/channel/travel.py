@@ -79,15 +79,13 @@ def _check_feed(draft: Draft, span: Span) -> None:
 
 
 def _measure(draft: Draft, words: Words) -> None:
-    """G100 X100: a feed motion to the target, where the probe triggers."""
-    word = words.gfunctions.pop(100)
-    if not words.axes:
-        draft.fail("N2025", word.span, "G100 needs at least one axis with its target")
+    """G100 X100: a feed motion to the point where the probe triggers, at most to the target."""
+    run = measuring.begin(draft, words)
     axes, modal = tuple(words.axes), draft.modes.motion
     draft.modal(motion="G01")
     motion(draft, words)
     draft.modal(motion=modal)
-    measuring.record(draft, axes, word.span)
+    measuring.record(draft, axes, run)
 
 
 def _check_modulo(draft: Draft, axis: int, words: Words, value: float) -> None:

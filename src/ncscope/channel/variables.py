@@ -184,6 +184,13 @@ VARIABLES: dict[str, Row] = {
     **axis_rows("V.A.MEIN", Row(_offset_reader("measure"), None, "measuring offset included")),
     **axis_rows("V.A.MESS", Row(readers.measured("value"), None, "measured value")),
     **axis_rows("V.A.MOFFS", Row(readers.measured("offset"), None, "measured value - target")),
+    **axis_rows(
+        "V.A.MEAS.PCS.VALUE", Row(readers.measured("program"), None, "measured programmed value")
+    ),
+    **axis_rows(
+        "V.A.MEAS.ACS.VALUE", Row(readers.measured("axis"), None, "measured axis position")
+    ),
+    "V.G.MEAS_TYPE": Row(plain(lambda d: d.state.measuring.type), None, "measuring type"),
     **axis_rows("V.A.MERF", Row(readers.was_measured, None, "1 when the axis has been measured")),
     **axis_rows("V.A.MANUAL_OFFSETS", Row(lambda d, r: 0.0, None, "manual offsets: no jog here")),
     **axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),

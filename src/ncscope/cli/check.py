@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ncscope.cli.inputs import run_program
-from ncscope.cli.options import MachineOption
+from ncscope.cli.options import MachineOption, ProbeOption
 from ncscope.cli.screen import fail, show_diagnostics
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 def check_command(
     paths: Annotated[list[Path], typer.Argument(help="Lists, folders of lists, programs.")],
     machine: MachineOption = None,
+    probe: ProbeOption = None,
     strict: Annotated[bool, typer.Option("--strict", help="A warning counts as an error.")] = False,
 ) -> None:
     """Check lists and programs; exit code 1 on errors."""
@@ -32,7 +33,7 @@ def check_command(
         else:
             from ncscope.execution import Options
 
-            result, more, _ = run_program(path, machine, Options(max_blocks=1_000_000))
+            result, more, _ = run_program(path, machine, Options(max_blocks=1_000_000), probe)
             found.extend([*(d for d in more if d.severity != "note"), *result.diagnostics])
     show_diagnostics(found)
     counts = {s: sum(d.severity == s for d in found) for s in ("error", "warning", "note")}

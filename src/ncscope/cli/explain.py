@@ -8,7 +8,14 @@ from typing import Annotated
 import typer
 
 from ncscope.cli.inputs import run_program
-from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels, read_place
+from ncscope.cli.options import (
+    ClampOption,
+    MachineOption,
+    ProbeOption,
+    SkipOption,
+    read_levels,
+    read_place,
+)
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
 
 
@@ -27,6 +34,7 @@ def explain_command(
     ] = ExplainFormat.TEXT,
     clamp: ClampOption = None,
     skip: SkipOption = "",
+    probe: ProbeOption = None,
 ) -> None:
     """Take the axis positions of one block apart, each part with the line that set it."""
     import json
@@ -35,7 +43,7 @@ def explain_command(
     from ncscope.views.table import explain_table
 
     path, line, number = read_place(place)
-    result, found, source = run_program(path, machine, Options(clamp, read_levels(skip)))
+    result, found, source = run_program(path, machine, Options(clamp, read_levels(skip)), probe)
     try:
         if number is not None:
             line = result.line_of_block(number)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ncscope.cli.screen import fail, progress_bar
 
 if TYPE_CHECKING:
+    from ncscope.channel.given import GivenRows
     from ncscope.diagnostics import Diagnostic
     from ncscope.execution import Options, Program
     from ncscope.machine import Machine
@@ -15,8 +16,10 @@ if TYPE_CHECKING:
 
 
 def run_program(
-    path: Path, machine_path: Path | None, options: Options
+    path: Path, machine_path: Path | None, options: Options, probe: Path | None = None
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
+    """The run of a program, what the lists and the file of probe answers have wrong, and the
+    program; ends the process when a file cannot be read."""
     from dataclasses import replace
 
     from ncscope.execution import run
@@ -31,12 +34,26 @@ def run_program(
         program = load_program(path)
     except OSError as error:
         fail(f"cannot read {path}: {error.strerror}")
+    options = replace(options, probe=_read_rows(probe, found))
     if any(d.is_error for d in found):  # on the wrong machine every number would be wrong
         return Trajectory((), machine.axis_names, ok=False), found, program
     options = replace(options, load=subprogram_loader([path.parent]))
     with progress_bar(len(program.source)) as progress:
         result = run(machine, program, options, progress)
     return result, found, program
+
+
+def _read_rows(path: Path | None, found: list[Diagnostic]) -> GivenRows | None:
+    from ncscope.loading import load_rows
+
+    if path is None:
+        return None
+    try:
+        rows, problems = load_rows(path)
+    except OSError as error:
+        fail(f"cannot read {path}: {error.strerror}")
+    found.extend(problems)
+    return rows
 
 
 def read_machine(path: Path | None) -> tuple[Machine, list[Diagnostic]]:

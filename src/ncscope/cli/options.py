@@ -20,6 +20,11 @@ SkipOption = Annotated[
     str, typer.Option("--skip", help="Skip levels that are on, for example 1,3; / is level 1.")
 ]
 
+ProbeOption = Annotated[
+    Path | None,
+    typer.Option("--probe", help="CSV: a row for each measuring run, a column for each axis."),
+]
+
 
 def read_levels(text: str) -> frozenset[int]:
     """The levels of --skip; ends the process when the text is none."""

@@ -10,7 +10,14 @@ from typing import Annotated
 import typer
 
 from ncscope.cli.inputs import run_program
-from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels, read_place
+from ncscope.cli.options import (
+    ClampOption,
+    MachineOption,
+    ProbeOption,
+    SkipOption,
+    read_levels,
+    read_place,
+)
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
 
 
@@ -35,6 +42,7 @@ def where_command(
     ] = WhereFormat.TABLE,
     clamp: ClampOption = None,
     skip: SkipOption = "",
+    probe: ProbeOption = None,
 ) -> None:
     """Where axis positions are in PCS, WCS and MCS under the state of a block."""
     from ncscope.execution import Options
@@ -43,7 +51,7 @@ def where_command(
 
     positions = read_positions([*axes, *(more or ())])
     path, line, number = read_place(at)
-    result, found, source = run_program(path, machine, Options(clamp, read_levels(skip)))
+    result, found, source = run_program(path, machine, Options(clamp, read_levels(skip)), probe)
     try:
         if number is not None:
             line = result.line_of_block(number)
