@@ -252,6 +252,9 @@ CATALOGUE: dict[str, Entry] = {
     "N3009": Entry("warning", "The kinematics will fail when it is selected."),
     "N3010": Entry("warning", "The kinematics looks unusual; check it."),
     "N3011": Entry("warning", "A key of a list is spelled with other upper and lower case."),
+    # Conversion of lists, our own
+    "N3501": Entry("warning", "A part of a list has no form in the syntax that is asked for."),
+    "N3502": Entry("error", "A library kinematics cannot be turned into the universal one."),
     # Run, our own
     "N4001": Entry("error", "The program has more blocks than --max-blocks allows."),
     "N4002": Entry("error", "The program cannot be read."),

@@ -13,6 +13,7 @@ import typer
 
 from ncscope import __version__
 from ncscope.cli.check import check_command
+from ncscope.cli.convert import convert_command
 from ncscope.cli.explain import explain_command
 from ncscope.cli.kin import kin_app
 from ncscope.cli.run import run_command
@@ -30,6 +31,7 @@ app.command("run")(run_command)
 app.command("explain")(explain_command)
 app.command("where")(where_command)
 app.command("check")(check_command)
+app.command("convert")(convert_command)
 app.add_typer(kin_app, name="kin")
 app.command("workbench")(workbench_command)
 

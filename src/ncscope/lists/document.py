@@ -22,7 +22,7 @@ _TOKEN = r"(?:(?!/\*)[^\s(#])+"
 _VALUE = re.compile(rf"{_TOKEN}(?:[ \t]*\|[ \t]*{_TOKEN})*")
 _FILLER = re.compile(r"\.{2,}|:+|\u2026")
 _NUMBER_ALONE = re.compile(r"[+-]?\d[\d.,eExX+-]*")
-_MARKS = ("\xef\xbb\xbf", "\xff\xfe", "\xfe\xff")
+BYTE_ORDER_MARKS = ("\xef\xbb\xbf", "\xff\xfe", "\xfe\xff")
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +118,7 @@ class _Parser:
         return ListDocument(self.source, tuple(self.entries), tuple(self.found))
 
     def _after_mark(self) -> int:
-        mark = next((m for m in _MARKS if self.source.text.startswith(m)), "")
+        mark = next((m for m in BYTE_ORDER_MARKS if self.source.text.startswith(m)), "")
         if mark:
             span = Span(self.source, 0, len(mark))
             message = "the file begins with a byte order mark, which the control rejects"

@@ -1,0 +1,90 @@
+"""`ncscope convert`: a channel list in another spelling of its kinematics."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ncscope.cli.screen import fail, show_diagnostics
+
+if TYPE_CHECKING:
+    from ncscope.lists.document import ListDocument
+
+
+class Syntax(StrEnum):
+    """Versions whose lists spell kinematics differently."""
+
+    OLD = "v2"
+    NEW = "v3"
+
+
+def convert_command(
+    path: Annotated[Path, typer.Argument(metavar="LIST", help="Channel list.")],
+    to: Annotated[
+        Syntax | None,
+        typer.Option("--to", help="v2: kinematik[91].x, up to V2.11; v3: trafo[0].x, from V3.00."),
+    ] = None,
+    fields: Annotated[bool, typer.Option("--fields", help="param[i] to named fields.")] = False,
+    param: Annotated[bool, typer.Option("--param", help="Named fields to param[i].")] = False,
+    kin: Annotated[
+        int | None, typer.Option("--kin", help="Library kinematics, such as 9, to an ID 91 list.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="File instead of the screen.")] = None,
+) -> None:
+    """Write a list in another spelling; comments, order and all other characters stay."""
+    from ncscope.lists.files import read_document
+
+    if fields and param:
+        fail("--fields and --param are opposites")
+    if kin is not None and (fields or param):
+        fail("--kin writes named fields; use --param on its result")
+    if kin is None and not (to or fields or param):
+        fail("what to? give --to v3, --to v2, --fields, --param or --kin ID")
+    if not path.is_file():
+        fail(f"there is no list {path}")
+    try:
+        document = read_document(path)
+    except OSError as error:
+        fail(f"cannot read {path}: {error.strerror}")
+    if kin is not None:
+        data = _library(document, kin, to is Syntax.OLD)
+    else:
+        data = _spelling(document, to, fields, param)
+    if out is None:
+        typer.echo(data, nl=False)
+        return
+    try:
+        out.write_bytes(data)
+    except OSError as error:
+        fail(f"cannot write {out}: {error.strerror}")
+
+
+def _library(document: ListDocument, id: int, old_syntax: bool) -> bytes:
+    from ncscope.lists.document import ENCODING
+    from ncscope.lists.universal_text import from_library
+
+    text, found = from_library(document, id, old_syntax)
+    show_diagnostics(found)
+    if text is None:
+        raise typer.Exit(1)
+    return text.encode(ENCODING)
+
+
+def _spelling(document: ListDocument, to: Syntax | None, fields: bool, param: bool) -> bytes:
+    from ncscope.lists import conversion
+
+    before = document
+    if to is not None:
+        turn = conversion.to_new_syntax if to is Syntax.NEW else conversion.to_old_syntax
+        document, found = turn(document)
+        show_diagnostics(found)
+    if fields:
+        document = conversion.to_names(document)
+    if param:
+        document = conversion.to_parameters(document)
+    if document.text == before.text:
+        typer.echo(f"{document.name}: there was nothing to convert", err=True)
+    return document.to_bytes()
