@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 
 from ncscope.contour import NO_CONTOUR, Contour
 from ncscope.frames import Array, Frame
+from ncscope.kinematics.alignment import LengthCorrection
 from ncscope.kinematics.step import KinematicsError, KinematicStep, Pose
 from ncscope.levels import BASE_LEVEL, NO_TOOL, OFFSET_KINDS, ActiveTool, Level, Offset
 
@@ -49,6 +50,14 @@ class ActiveKinematics:
     turns_direction: bool = False
 
 
+@dataclass(frozen=True)
+class ActiveLengthCorrection:
+    """#TLC with a kinematics: it acts along the tool, while no transformation is on."""
+
+    model: LengthCorrection
+    origin: str | None = None
+
+
 class Layer(NamedTuple):
     """One step from the programmed word to the axis: contribution and value after it."""
 
@@ -64,6 +73,7 @@ class Coordinates:
 
     axis_count: columns of every array. levels: from the workpiece level 0 to the innermost one.
     program_step: what maps programmed values before everything else (#TRAFO PCS).
+    length_step: what carries axis values over to a tool of another length (#TLC).
     Source: TF5200 coordinate systems and offsets; FCT-C2; TF5200 #CS; FCT-C27.
     """
 
@@ -73,6 +83,7 @@ class Coordinates:
     kinematics: ActiveKinematics | None = None
     contour: Contour = NO_CONTOUR
     program_step: ActiveKinematics | None = None
+    length_step: ActiveLengthCorrection | None = None
 
     def __post_init__(self) -> None:
         """Raises ValueError for a coordinate system over fewer than three main axes."""
@@ -140,6 +151,8 @@ class Coordinates:
         """
         position = np.asarray(axes, dtype=float)
         active = self.kinematics
+        if self.length_step is not None:
+            position = self.length_step.model.program(position)
         if active is not None:
             self._check_vector(active)
             if near is not None:
@@ -266,6 +279,8 @@ class Coordinates:
     def _solved(self, position: Array, near: ArrayLike | None) -> Array:
         """Axis positions for a tool tip with the tool offsets taken off."""
         active = self.kinematics
+        if self.length_step is not None:
+            return self.length_step.model.inverse(position)
         if active is None:
             return position
         self._check_vector(active)
@@ -308,6 +323,8 @@ class Coordinates:
                 yield level.name, level.origin, _mover(level.frame, n)
         if self.tool.origin is not None or np.any(self.tool_vector):
             yield "tool", self.tool.origin, _adder(-self.tool_vector)
+        if self.length_step is not None:
+            yield "#TLC", self.length_step.origin, lambda x: self._solved(x, near)
         if self.kinematics is not None:
             yield "kinematics", self.kinematics.origin, lambda x: self._solved(x, near)
 

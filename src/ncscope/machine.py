@@ -117,6 +117,8 @@ class ChannelSettings:
     rotation_fixed: bool = False  # P-CHAN-00393
     offsets_per_level: bool = True  # P-CHAN-00397
     direction_turns: bool = False  # P-CHAN-00247 ori_wcs
+    tool_orientation_axis: int = 0  # P-CHAN-00188 tool_ori_cs.axis
+    tool_orientation_mode: int = 0  # P-CHAN-00189 tool_ori_cs.mode
     ecs_axis: str = ""  # P-CHAN-00031 kind_of_2nd_ecs_ax
     ecs_plane: str = ""  # P-CHAN-00050 mach_plane_of_2nd_ecs_ax
     centre_shift: float = 2.0  # P-CHAN-00059 mittelpkt_diff, mm

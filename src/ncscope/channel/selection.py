@@ -45,9 +45,11 @@ def kinematics_of(draft: Draft, span: Span, ids: tuple[int, int]) -> KinematicSt
 
 def step_of(draft: Draft, span: Span, step: int, id: int) -> KinematicStep:
     """One step, with the parameters of the tool where it is the first."""
-    parameters = _parameters(draft, span, step, id)
-    if step == 0:
-        parameters = _with_tool(draft, span, parameters, draft.state.tool.record)
+    return checked(draft, span, parameters_of(draft, span, step, id))
+
+
+def checked(draft: Draft, span: Span, parameters: KinematicParameters) -> KinematicStep:
+    """The kinematics of a data set; fails with its first fault and the lines to blame."""
     machine, names = draft.machine, draft.state.axis_names
     mode = machine.settings.orientation_mode
     if type_of(parameters) == UNIVERSAL and UNIVERSAL not in machine.kinematic_types:
@@ -56,11 +58,12 @@ def step_of(draft: Draft, span: Span, step: int, id: int) -> KinematicStep:
     try:
         return build(parameters, names, mode, machine.kinematic_types)
     except KinematicsError as error:
-        message = f"kinematics {id} cannot be selected: {error.message}"
+        message = f"kinematics {parameters.id} cannot be selected: {error.message}"
         draft.fail(error.id, span, message, error.hint)
 
 
-def _parameters(draft: Draft, span: Span, step: int, id: int) -> KinematicParameters:
+def parameters_of(draft: Draft, span: Span, step: int, id: int) -> KinematicParameters:
+    """The data set of an id, with the parameters of the tool where it is for the first step."""
     held = draft.state.kinematics.sets(step)
     if id == 0:
         command = "#TRAFO PCS ID [..]" if step == PROGRAM_STEP else "#KIN ID [91]"
@@ -71,7 +74,7 @@ def _parameters(draft: Draft, span: Span, step: int, id: int) -> KinematicParame
         number = "21630" if step == PROGRAM_STEP else "292005"
         message = f"kinematics {id} is not configured{where[step]}; configured: {known}"
         draft.fail(number, span, message)
-    return held[id]
+    return _with_tool(draft, span, held[id], draft.state.tool.record) if step == 0 else held[id]
 
 
 def _with_tool(

@@ -110,7 +110,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("TRANSFORM", "later", "Computes a position in another coordinate system."),
     Command("MCS TO WCS", "later", "Computes a position in another coordinate system."),
     Command("WCS TO MCS", "later", "Computes a position in another coordinate system."),
-    Command("TOOL ORI CS", "later", "Turns the tool perpendicular to the coordinate system."),
+    Command("TOOL ORI CS", "modelled", "Turns the tool onto an axis of the coordinate system."),
     Command("PTP ON", "modelled", "Moves the axes straight to the end points of a transformation."),
     Command("PTP OFF", "modelled", "Ends #PTP ON."),
     Command("TRAFO PCS ID", "modelled", "Chooses the transformation for the next #TRAFO PCS ON."),

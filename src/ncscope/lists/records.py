@@ -34,6 +34,8 @@ SETTINGS_OF_KEYS = {
     "meas_error_no_signal": "probe_must_answer",
     "p_param_haltend": "keep_parameters",
     "ori_wcs": "direction_turns",
+    "tool_ori_cs.axis": "tool_orientation_axis",
+    "tool_ori_cs.mode": "tool_orientation_mode",
     "coordinate_system.rotation_sequence": "rotation_sequence",
     "coordinate_system.rotation_mode_fixed": "rotation_fixed",
     "coordinate_system.axes_offsets_layer_specific": "offsets_per_level",

@@ -20,6 +20,7 @@ from ncscope.channel.commands import (
     program_transformation,
     system_mode,
     systems,
+    tool_orientation,
     transformation,
 )
 from ncscope.channel.commands import declarations as declared
@@ -38,11 +39,12 @@ COMMANDS = {
     **contour.COMMANDS,
     **transformation.COMMANDS,
     **point_to_point.COMMANDS,
+    **tool_orientation.COMMANDS,
     **program_transformation.COMMANDS,
     **axes.COMMANDS,
     **messages.COMMANDS,
     **declared.COMMANDS,
 }
 
-LAST = frozenset({"SUPPRESS OFFSETS"})
+LAST = frozenset({"SUPPRESS OFFSETS", "TOOL ORI CS"})
 """Commands that move: they act after the words of their block, such as G90, G01 and F."""

@@ -21,7 +21,7 @@ AXIS_LETTERS = "ABCQUVWXYZ"
 def set_ax(draft: Draft, command: tree.HashCommand) -> None:
     """#SET AX [X,1,0] [Y,2,1]: these axes are the channel now; index 0 to 2 are the main axes."""
     chain = draft.state.coordinates
-    if chain.kinematics is not None or chain.program_step is not None:
+    if any(s is not None for s in (chain.kinematics, chain.program_step, chain.length_step)):
         draft.fail(
             "20683",
             command.span,

@@ -1,6 +1,7 @@
 """#TLC ON [15], #TLC OFF: the tool is longer than its data say (TF5200 #TLC).
 
-Counts from the next absolute word. Not together with a transformation.
+Counts from the next absolute word. Not together with a transformation. With a preselected
+kinematics the difference acts along the tool, wherever the rotary axes turn it.
 """
 
 from __future__ import annotations
@@ -10,6 +11,13 @@ from dataclasses import replace
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number
+from ncscope.channel.selection import checked, parameters_of
+from ncscope.coordinates import ActiveLengthCorrection
+from ncscope.kinematics.alignment import LengthCorrection
+from ncscope.kinematics.building import UNIVERSAL, type_of
+from ncscope.kinematics.chain import CONFORMAL
+from ncscope.kinematics.parameters import INDEX_OF_FIELD
+from ncscope.kinematics.universal import UniversalKinematics
 from ncscope.language import tree
 
 
@@ -27,13 +35,37 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
         form = "write for example #TLC ON [0.5]"
         draft.fail("N1005", command.span, "#TLC ON needs the difference of length", form)
     length = evaluate_number(draft, places[0]) * draft.modes.length_factor
-    tool = replace(tool, correction=length, correction_at=draft.place)
-    draft.state = offsets.with_tool(draft.state, tool)
+    id = draft.state.kinematics.ids[0]
+    if id == 0:
+        tool = replace(tool, correction=length, correction_at=draft.place)
+        draft.state = offsets.with_tool(draft.state, tool)
+        return
+    step = ActiveLengthCorrection(_along_the_tool(draft, command, id, length), draft.place)
+    draft.state = replace(draft.state, tool=replace(tool, correction_at=draft.place))
+    draft.set_coordinates(replace(draft.state.coordinates, length_step=step), command.span)
+
+
+def _along_the_tool(
+    draft: Draft, command: tree.HashCommand, id: int, length: float
+) -> LengthCorrection:
+    """The correction by the preselected kinematics, taken as RTCP: words are axis angles."""
+    parameters = parameters_of(draft, command.span, 0, id)
+    if type_of(parameters) != UNIVERSAL:
+        what = f"#TLC with kinematics {id} of type {parameters.type} is not supported"
+        draft.fail("N2001", command.span, what, "only type 91 is; #KIN ID [0] corrects one axis")
+    for name, value in (("programming_mode", CONFORMAL), ("rtcp", 1)):
+        parameters = parameters.with_value(INDEX_OF_FIELD[name], value)
+    model = checked(draft, command.span, parameters)
+    assert isinstance(model, UniversalKinematics)
+    return LengthCorrection(model, length)
 
 
 def off(draft: Draft, command: tree.HashCommand) -> None:
     """#TLC OFF"""
     tool = replace(draft.state.tool, correction=0.0, correction_at=None)
+    if draft.state.coordinates.length_step is not None:
+        coordinates = replace(draft.state.coordinates, length_step=None)
+        draft.set_coordinates(coordinates, command.span)
     draft.state = offsets.with_tool(draft.state, tool)
 
 

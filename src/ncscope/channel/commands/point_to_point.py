@@ -11,29 +11,25 @@ from dataclasses import replace
 from ncscope.channel.draft import Draft
 from ncscope.language import tree
 
-REFUSED = {
-    "CS ON": "21550",
-    "ACS ON": "21550",
-    "BCS ON": "21550",
-    "CS OFF": "21529",
-    "CS OFF ALL": "21529",
-    "ACS OFF": "21529",
-    "ACS OFF ALL": "21529",
-    "BCS OFF": "21529",
-    "BCS OFF ALL": "21529",
-    "MCS ON": "21531",
-    "MCS OFF": "21531",
-    "KIN ID": "20687",
-}
-"""Commands that cannot stand between #PTP ON and #PTP OFF, and their errors."""
+SYSTEMS = frozenset({"CS", "ACS", "BCS", "ECS"})
+ALLOWED = frozenset({"DEF", "MODE"})
+"""Of the commands of coordinate systems: they store something and switch nothing."""
 
 
 def refuse_inside(draft: Draft, command: tree.HashCommand) -> None:
     """Fails for a command that is not allowed while #PTP is active."""
-    id = REFUSED.get(command.name)
-    if id is not None and draft.state.kinematics.point_to_point:
+    id = _refusal(command.name) if draft.state.kinematics.point_to_point else None
+    if id is not None:
         what = f"#{command.name} is not allowed while #PTP is active"
         draft.fail(id, command.span, what, "write #PTP OFF before it")
+
+
+def _refusal(name: str) -> str | None:
+    first, *rest = name.split(" ")
+    verb = rest[0] if rest else ""
+    if first in SYSTEMS and verb not in ALLOWED:
+        return "21529" if verb in ("OFF", "DEL") else "21550"
+    return "21531" if first == "MCS" and verb in ("ON", "OFF") else None
 
 
 def _switch(draft: Draft, command: tree.HashCommand, on: bool) -> None:

@@ -81,7 +81,7 @@ def off(draft: Draft, command: tree.HashCommand) -> None:
 
 
 def _switch_on(draft: Draft, command: tree.HashCommand, first: Choice, second: Choice) -> None:
-    """The steps that are on become the kinematics; its pose is that of the axes (D-3)."""
+    """The steps that are on become the kinematics; its pose is that of the axes."""
     _refuse_point_to_point(draft, command, "21552")
     if draft.state.tool.correction_at is not None:
         what = "a transformation is not allowed while #TLC is active"
