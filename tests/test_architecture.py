@@ -29,6 +29,7 @@ LAYERS = (
     "explanation",
     "trajectory",
     "recording",
+    "transitions",
     "inspection",
     "channel",
     "execution lists",

@@ -24,6 +24,7 @@ from ncscope.machine import Machine
 from ncscope.motion.sampling import FINEST
 from ncscope.recording import Recorder
 from ncscope.trajectory import Trajectory
+from ncscope.transitions import Transitions
 
 if TYPE_CHECKING:
     from ncscope.language.scanner import Scanner
@@ -182,6 +183,7 @@ class _Loop:
         self.machine, self.source, self.options = machine, source, options
         self.state = start_state(machine, options.clamp, options.probe)
         self.recorder, self.log = Recorder(source, options.sample), _Log()
+        self.transitions = Transitions(self.recorder)
         self.messages: list[Message] = []
         self.channels = [(0, self.state.axes)]
         self.sources = {source.name: source}
@@ -204,13 +206,13 @@ class _Loop:
             return
         before, step = self.state, execute(self.machine, self.state, block)
         self.state = step.state
-        _record(self.recorder, before, step, block)
         self.messages.extend(step.messages)
         self.add(step.diagnostics)
+        self.add(_record(self.transitions, before, step, block))
         self.ended, self.returned = step.ended, step.returned
         if step.state.axes is not before.axes:
             self.scanner = None
-            self.channels.append((self.recorder.rows, step.state.axes))
+            self.channels.append((self.recorder.moves, step.state.axes))
 
     def meet(self, block: tree.Block, found: Iterable[Diagnostic]) -> bool:
         """Whether a block that was reached is to be executed; says what was found in it."""
@@ -226,7 +228,7 @@ class _Loop:
 
     def take_plain(self, reader: BlockReader) -> None:
         """All plain blocks that follow, in the bulk lane."""
-        if not self.bulk or reader.in_area:
+        if not self.bulk or reader.in_area or self.transitions.waiting is not None:
             return
         from ncscope.channel.bulk import advance
         from ncscope.language.scanner import Scanner
@@ -261,13 +263,14 @@ class _Loop:
             self.log.add(_no_end(self.source), self.options.strict)
         if not self.log.stop:
             self.add(_unused(self.state.probe))
-        self.recorder.close()
+            self.add(self.transitions.finish())
+        stretches = self.recorder.finish()
         self.add(self.recorder.complaints())
         done = Trajectory(
-            tuple(self.recorder.stretches),
+            stretches,
             tuple(self.recorder.axes) or self.state.axis_names,
             messages=tuple(self.messages),
-            channels=tuple(self.channels),
+            channels=tuple((self.recorder.rows_of(moves), axes) for moves, axes in self.channels),
             _places=self.recorder.places,
             _file=self.source.name,
         )
@@ -279,14 +282,14 @@ def _skipped(block: tree.Block, options: Options) -> bool:
     return block.skip is not None and block.skip in options.skip
 
 
-def _record(recorder: Recorder, before: State, step: Step, block: tree.Block) -> None:
-    state = step.state
+def _record(
+    transitions: Transitions, before: State, step: Step, block: tree.Block
+) -> tuple[Diagnostic, ...]:
+    state, recorder = step.state, transitions.recorder
     start = before.position.axes
-    for move in step.moves:
-        if len(start) != len(move.axes):
-            start = move.axes
-        recorder.add(move.coordinates or state.coordinates, state.axis_names, move, start)
-        start = move.axes
+    found = transitions.take(state.coordinates, state.axis_names, step.moves, start)
+    if step.corner is not None:
+        found += transitions.insert(step.corner)
     if not step.moves and block.span.source.name == recorder.file:
         recorder.visit(
             block.span.line,
@@ -296,6 +299,7 @@ def _record(recorder: Recorder, before: State, step: Step, block: tree.Block) ->
             state.position.program,
             state.position.axes,
         )
+    return found
 
 
 def _too_many(limit: int, span: Span, loop: Span | None) -> Diagnostic:

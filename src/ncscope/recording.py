@@ -6,7 +6,8 @@ set of axes; with a tolerance they hold points along the moves too.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,8 +16,55 @@ from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.explanation import Visit
 from ncscope.frames import Array
 from ncscope.motion import MOTIONS, Move
+from ncscope.motion.arc import Arc
 from ncscope.motion.sampling import Paths, needs_points, sample
 from ncscope.trajectory import NO_BLOCK, Stretch
+
+
+@dataclass(frozen=True)
+class _Part:
+    """A stretch with what lies between its rows.
+
+    start: programmed values before every row (m, n), or before the first one (n,) where each
+    row begins at the end of the one before. spans: None where the lines are plain blocks.
+    """
+
+    stretch: Stretch
+    start: Array
+    arcs: Mapping[int, Arc] = field(default_factory=dict)
+    spans: list[Span] | None = None
+
+    def paths(self) -> Paths:
+        start = self.start
+        if start.ndim == 1:
+            start = np.concatenate([start[None], self.stretch.pcs[:-1]])
+        return Paths(start, self.stretch.pcs, self.arcs)
+
+    def last(self, source: Source) -> tuple[Move, Coordinates]:
+        s = self.stretch
+        paths = self.paths()
+        span = self.spans[-1] if self.spans else _line_span(source, int(s.line[-1]))
+        block, feed = int(s.block[-1]), float(s.feed[-1])
+        move = Move(
+            MOTIONS[s.motion[-1]],
+            None if np.isnan(feed) else feed,
+            paths.start[-1],
+            s.pcs[-1],
+            s.acs[-1],
+            None if block == NO_BLOCK else block,
+            span,
+            None,
+            self.arcs.get(len(s) - 1),
+        )
+        return move, s.coordinates
+
+    def with_last(self, move: Move) -> _Part:
+        pcs, acs = self.stretch.pcs.copy(), self.stretch.acs.copy()
+        pcs[-1], acs[-1] = move.program, move.axes
+        arcs = dict(self.arcs)
+        if move.arc is not None:
+            arcs[len(pcs) - 1] = move.arc
+        return replace(self, stretch=replace(self.stretch, pcs=pcs, acs=acs), arcs=arcs)
 
 
 class Recorder:
@@ -34,14 +82,10 @@ class Recorder:
         self.coarse: dict[tuple[str, int], Span] = {}
         self._source = source
         self._tolerance = tolerance
+        self.moves = 0
+        self._parts: list[_Part] = []
         self._open: tuple[Coordinates, tuple[str, ...], Array, str] | None = None
         self._moves: list[Move] = []
-
-    @property
-    def rows(self) -> int:
-        """Rows of the trajectory so far."""
-        self.close()
-        return sum(len(stretch) for stretch in self.stretches)
 
     def add(
         self, coordinates: Coordinates, axes: tuple[str, ...], move: Move, start: Array
@@ -51,18 +95,29 @@ class Recorder:
         if self._open is None or (
             self._open[0] is not coordinates or self._open[1] != axes or self._open[3] != file
         ):
-            self.close()
+            self._close()
             self._open = (coordinates, axes, start, file)
         self._moves.append(move)
+        self.moves += 1
 
     def extend(self, stretch: Stretch, start: Array) -> None:
         """Many straight moves at once; `start` are the programmed values before them."""
-        self.close()
-        if self._tolerance is not None:
-            starts = np.concatenate([start[None], stretch.pcs[:-1]])
-            stretch = self._sampled(stretch, Paths(starts, stretch.pcs, {}))
-        self._name_axes(stretch.axes)
-        self.stretches.append(stretch)
+        self._close()
+        self._parts.append(_Part(stretch, start))
+        self.moves += len(stretch)
+
+    def last(self) -> tuple[Move, Coordinates] | None:
+        """The last move with its chain; None before the first one."""
+        if self._open is not None:
+            return self._moves[-1], self._open[0]
+        return self._parts[-1].last(self._source) if self._parts else None
+
+    def replace_last(self, move: Move) -> None:
+        """Another end for the last move."""
+        if self._open is not None:
+            self._moves[-1] = move
+        else:
+            self._parts[-1] = self._parts[-1].with_last(move)
 
     def visit(
         self, line: int, block: int | None, coordinates: Coordinates, axes: tuple[str, ...],
@@ -71,17 +126,29 @@ class Recorder:
         """A block without motion: what `explain` of its line shows."""
         self.places[line] = Visit(coordinates, axes, self.file, block, program, position, position)
 
-    def close(self) -> None:
+    def finish(self) -> tuple[Stretch, ...]:
+        """All stretches, with the points between where a tolerance asks for them."""
+        self._close()
+        for part in self._parts:
+            self._name_axes(part.stretch.axes)
+            self.stretches.append(self._sampled(part))
+        self._parts = []
+        return tuple(self.stretches)
+
+    def rows_of(self, moves: int) -> int:
+        """Rows of the finished trajectory up to the end of so many moves."""
+        if self._tolerance is None or moves == 0:
+            return moves
+        ends = np.concatenate([s.end for s in self.stretches])
+        return int(np.flatnonzero(ends)[moves - 1]) + 1
+
+    def _close(self) -> None:
         if self._open is None:
             return
-        moves, stretch = self._moves, self._stretch()
-        if self._tolerance is not None:
-            starts = np.array([m.start for m in moves], dtype=float)
-            arcs = {i: m.arc for i, m in enumerate(moves) if m.arc is not None}
-            spans = [m.span for m in moves]
-            stretch = self._sampled(stretch, Paths(starts, stretch.pcs, arcs), spans)
-        self._name_axes(stretch.axes)
-        self.stretches.append(stretch)
+        moves = self._moves
+        arcs = {i: m.arc for i, m in enumerate(moves) if m.arc is not None}
+        starts = np.array([m.start for m in moves], dtype=float)
+        self._parts.append(_Part(self._stretch(), starts, arcs, [m.span for m in moves]))
         self._open, self._moves = None, []
 
     def complaints(self) -> list[Diagnostic]:
@@ -108,14 +175,18 @@ class Recorder:
             start,
         )
 
-    def _sampled(self, s: Stretch, paths: Paths, spans: list[Span] | None = None) -> Stretch:
-        """The stretch with points along its moves."""
-        if not needs_points(s.coordinates, paths) or self._tolerance is None:
+    def _sampled(self, part: _Part) -> Stretch:
+        """The stretch of a part with points along its moves."""
+        s, spans = part.stretch, part.spans
+        if self._tolerance is None:
+            return s
+        paths = part.paths()
+        if not needs_points(s.coordinates, paths):
             return replace(s, ends=s.end)
         points = sample(s.coordinates, paths, s.acs, s.start, self._tolerance)
         for index in points.coarse:
             line = int(s.line[index])
-            span = spans[index] if spans else self._line_span(line)
+            span = spans[index] if spans else _line_span(self._source, line)
             self.coarse.setdefault((s.file, line), span)
         row = points.row
         return replace(
@@ -129,9 +200,10 @@ class Recorder:
             ends=points.share == 1.0,
         )
 
-    def _line_span(self, line: int) -> Span:
-        start = self._source.line_start(line)
-        return Span(self._source, start, start + len(self._source.line_text(line)))
-
     def _name_axes(self, axes: tuple[str, ...]) -> None:
         self.axes.extend(a for a in axes if a not in self.axes)
+
+
+def _line_span(source: Source, line: int) -> Span:
+    start = source.line_start(line)
+    return Span(source, start, start + len(source.line_text(line)))

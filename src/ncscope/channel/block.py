@@ -24,13 +24,15 @@ from ncscope.language import tree
 from ncscope.language.commands import lookup
 from ncscope.machine import Machine
 from ncscope.motion import Move
+from ncscope.motion.corners import Corner
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
     """What one block did.
 
-    ended: the span of M02 or M30 was reached. returned: where M17 or M29 stands, None without.
+    corner: a chamfer or rounding before the next move. ended: the span of M02 or M30 was reached.
+    returned: where M17 or M29 stands, None without.
     """
 
     state: State
@@ -39,6 +41,7 @@ class Step:
     diagnostics: tuple[Diagnostic, ...] = ()
     ended: bool = False
     returned: Span | None = None
+    corner: Corner | None = None
 
     @property
     def failed(self) -> bool:
@@ -62,6 +65,7 @@ def execute(machine: Machine, state: State, block: tree.Block) -> Step:
         tuple(draft.diagnostics),
         draft.ended,
         draft.returned,
+        draft.corner,
     )
 
 

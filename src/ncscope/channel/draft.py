@@ -19,6 +19,7 @@ from ncscope.kinematics.step import KinematicsError
 from ncscope.machine import Machine
 from ncscope.motion import Move
 from ncscope.motion.arc import Arc
+from ncscope.motion.corners import Corner
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +54,8 @@ class Draft:
     moves: list[Move] = field(default_factory=list)
     ended: bool = False
     returned: Span | None = None
+    inserts: dict[str, tuple[float, Span]] = field(default_factory=dict)
+    corner: Corner | None = None
 
     def fail(self, id: str, span: Span, message: str, hint: str = "", **more: Any) -> NoReturn:
         raise BlockError(diagnostic(id, span, message, hint, **more))

@@ -34,7 +34,7 @@ def _rows() -> dict[int, GFunction]:
     add("74", "motion", "20108", "motion", "homing")
     add("98 99", "motion", "20108", "later", "software limits from the program")
     add("160", None, None, "offset", "take axes into or out of a zero offset group")
-    add("301 302", "corner", None, "later", "chamfer and rounding")
+    add("301 302", "corner", "20130", "motion", "chamfer and rounding")
     add("303", None, None, "later", "circle in space")
     add("8 9 900 901 193 293", None, None, "quiet", "acceleration and feed at block limits")
     add("40", "radius", None, "quiet", "cutter radius compensation off")

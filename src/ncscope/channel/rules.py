@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ncscope.channel import circle, contour, manual, measuring, offsets, tools, travel
+from ncscope.channel import circle, contour, corner, manual, measuring, offsets, tools, travel
 from ncscope.channel.draft import Draft
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.words import Words
@@ -179,7 +179,9 @@ RULES: tuple[Callable[[Draft, Words], None], ...] = (
     _technology,
     manual.jog,
     manual.home,
+    corner.stored_size,
     travel.motion,
+    corner.beside_motion,
     _end,
 )
 """The rules in their order of effect; each takes its words and leaves the rest."""

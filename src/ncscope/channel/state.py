@@ -24,7 +24,8 @@ class Modal:
 
     motion: `G00` to `G03` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
     feed: mm or degrees per minute. radius: mm, of the arcs without a centre (R, G163), None where
-    a centre was given last. centre_absolute: G161. centre_fits: G165. The start
+    a centre was given last. centre_absolute: G161. centre_fits: G165. corner_size:
+    mm, the last I of G301 and G302. The start
     values are the built-in ones of P-CHAN-00063.
     """
 
@@ -37,6 +38,7 @@ class Modal:
     radius: float | None = None
     centre_absolute: bool = False
     centre_fits: bool = True
+    corner_size: float = 0.0
 
     @property
     def length_factor(self) -> float:

@@ -4,7 +4,7 @@ Commands without effect on positions and commands that are refused stand in the 
 `language.commands`; what is in neither is unknown.
 """
 
-from ncscope.channel import manual
+from ncscope.channel import corner, manual
 from ncscope.channel.commands import (
     axes,
     contour,
@@ -36,6 +36,7 @@ COMMANDS = {
     **length_axis.COMMANDS,
     **manual.COMMANDS,
     **measuring_mode.COMMANDS,
+    **corner.COMMANDS,
     **contour.COMMANDS,
     **transformation.COMMANDS,
     **point_to_point.COMMANDS,
