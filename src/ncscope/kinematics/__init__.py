@@ -2,7 +2,8 @@
 
 Reading order: `parameters` (the 70 numbers of a data set), `chain` (the same in mm and unit
 vectors, and its faults), `kernels` (compiled loops: tool from axes, linear axes from tool),
-`orientation` (tool direction <-> rotary axes), `step` (what any kinematics has to offer),
+`turning` and `orientation` (tool direction <-> rotary axes), `directions` (how a program writes a
+direction), `step` (what any kinematics has to offer),
 `universal` (programming modes, the public class).
 
 Frames: the workpiece system with all axes at 0. Units: mm and degrees. Rotations follow the

@@ -157,7 +157,8 @@ def _solve3(columns, x, y, z):
         return NOT_FINITE, x, y, z
     if abs(det) < SINGULAR_DETERMINANT:
         return SINGULAR, x, y, z
-    x, y, z = x / det, y / det, z / det
+    factor = 1.0 / det
+    x, y, z = x * factor, y * factor, z * factor
     return (
         OK,
         ux * x + uy * y + uz * z,

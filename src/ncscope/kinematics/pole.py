@@ -48,10 +48,10 @@ class Pole:
             return None
         directions = model.chain.directions[list(rotary)]
         solver = OrientationSolver.from_axes(directions, model.chain.zero_orientation)
-        between, lean, _, turning_point, free = (float(v) for v in solver.angles)
-        if free:
+        if solver.free:
             return None
-        return cls(model, *rotary, directions[0], between, lean, turning_point)
+        between, lean = solver.between_rad, solver.lean_rad
+        return cls(model, *rotary, directions[0], between, lean, solver.turning_point)
 
     def distance(self, second: Array) -> Array:
         """Angle (...) between the tool and the first axis, 0 to 90 degrees, either sense.
