@@ -47,6 +47,10 @@ OTHER = st.sampled_from(
         "G301 I0.5", "G302 I0.1", "X5 #RND=0.2", "Y7 #CHF=1",
     ]
 )  # fmt: skip
+KINEMATIC = st.sampled_from(
+    ["#TRAFO OFF", "#TRAFO ON", "#PTP ON", "#PTP OFF", "#TOOL ORI CS", "#TLC OFF", "#TLC ON [5]",
+     "#TRAFO [OFF]", "V.G.KIN[91].ZERO_POSITION[1] = 5", "#CS ON [0,0,0,20]", "#KIN ID [91]"]
+)  # fmt: skip
 LINES = st.lists(st.one_of(PLAIN, PLAIN, PLAIN, OTHER), min_size=1, max_size=14)
 
 
@@ -83,7 +87,11 @@ VECTOR = (
 
 
 @settings(max_examples=120, deadline=None)
-@given(LINES, st.integers(0, 6), st.sampled_from(["", COMPLETE, SLANTED, VECTOR]))
+@given(
+    st.lists(st.one_of(PLAIN, PLAIN, PLAIN, OTHER, KINEMATIC), min_size=1, max_size=14),
+    st.integers(0, 6),
+    st.sampled_from(["", COMPLETE, SLANTED, VECTOR]),
+)
 def test_lanes_agree_under_a_kinematics_and_a_block_limit(lines, limit, kinematics):
     """RTCP, complete, complete with directions out of reach, and a direction as a vector."""
     text = kinematics + "#KIN ID [91]\n#TRAFO ON\n" + "\n".join(lines) + "\n"

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ncscope.kinematics.parameters import KinematicParameters
+from ncscope.kinematics.readings import STANDARD, Reading
 
 if TYPE_CHECKING:
     from ncscope.kinematics.step import Builder, KinematicStep
@@ -148,6 +149,7 @@ class Machine:
     `second_step_parameters`, `program_step_parameters`: the same for the second step of a
     transformation (kin_step[1]) and for PCS transformations (trafo_pcs).
     `kinematic_types`: what makes a kinematics of a data set, by type number; 91 is built in.
+    `kinematic_reading`: how parameters of type 91 are understood where the manual is open.
     `systems`: the configured coordinate systems by their id, for #CS, #ACS and #BCS alike.
     """
 
@@ -162,6 +164,7 @@ class Machine:
     second_step_parameters: Mapping[int, KinematicParameters] = field(default_factory=dict)
     program_step_parameters: Mapping[int, KinematicParameters] = field(default_factory=dict)
     kinematic_types: Mapping[int, Builder] = field(default_factory=dict)
+    kinematic_reading: Reading = STANDARD
     systems: Mapping[int | str, ConfiguredSystem] = field(default_factory=dict)
 
     @property
@@ -187,7 +190,8 @@ class _Kinematics(Mapping[int, "KinematicStep"]):
         machine = self._machine
         parameters = machine.kinematic_parameters[id]
         mode = machine.settings.orientation_mode
-        return build(parameters, machine.axis_names, mode, machine.kinematic_types)
+        types, reading = machine.kinematic_types, machine.kinematic_reading
+        return build(parameters, machine.axis_names, mode, types, reading)
 
     def __iter__(self) -> Iterator[int]:
         return iter(sorted(self._machine.kinematic_parameters))

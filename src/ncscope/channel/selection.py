@@ -56,7 +56,7 @@ def checked(draft: Draft, span: Span, parameters: KinematicParameters) -> Kinema
         for fault in validate(parameters, len(names), mode, names):
             _report(draft, span, parameters, fault)
     try:
-        return build(parameters, names, mode, machine.kinematic_types)
+        return build(parameters, names, mode, machine.kinematic_types, machine.kinematic_reading)
     except KinematicsError as error:
         message = f"kinematics {parameters.id} cannot be selected: {error.message}"
         draft.fail(error.id, span, message, error.hint)

@@ -18,6 +18,7 @@ from ncscope.kinematics.parameters import (
     KinematicParameters,
     field_index,
 )
+from ncscope.kinematics.readings import Reading
 from ncscope.kinematics.step import KinematicsError, KinematicStep, TwoSteps
 from ncscope.kinematics.universal import UniversalKinematics, explain_status
 
@@ -31,6 +32,7 @@ __all__ = [
     "KinematicStep",
     "KinematicsError",
     "OrientationSolver",
+    "Reading",
     "TwoSteps",
     "UniversalKinematics",
     "explain_status",

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ncscope.kinematics.parameters import KinematicParameters
+from ncscope.kinematics.readings import STANDARD, Reading
 from ncscope.kinematics.step import Builder, KinematicsError, KinematicStep
 from ncscope.kinematics.universal import UniversalKinematics
 
@@ -31,10 +32,11 @@ def build(
     axis_names: Sequence[str],
     default_mode: int = 0,
     types: Mapping[int, Builder] | None = None,
+    reading: Reading = STANDARD,
 ) -> KinematicStep:
     """The kinematics of a data set in a channel with these axes.
 
-    default_mode: P-CHAN-00112. types: builders of further types.
+    default_mode: P-CHAN-00112. types: builders of further types. reading: for type 91.
     Raises KinematicsError for an unknown type, or with the first fault of the parameters.
     """
     type = type_of(parameters)
@@ -47,4 +49,4 @@ def build(
             f"kinematics {parameters.id} of type {type} is not supported",
             hint=f"known types: {known}",
         )
-    return UniversalKinematics.from_parameters(parameters, axis_names, default_mode)
+    return UniversalKinematics.from_parameters(parameters, axis_names, default_mode, reading)

@@ -23,6 +23,7 @@ from ncscope.kinematics.parameters import (
     MAX_AXES,
     KinematicParameters,
 )
+from ncscope.kinematics.readings import STANDARD, Reading
 
 Array = NDArray[np.float64]
 
@@ -59,7 +60,12 @@ class Chain:
     rtcp: bool
 
     @classmethod
-    def from_parameters(cls, parameters: KinematicParameters, default_mode: int = 0) -> Chain:
+    def from_parameters(
+        cls,
+        parameters: KinematicParameters,
+        default_mode: int = 0,
+        reading: Reading = STANDARD,
+    ) -> Chain:
         """The chain of parameters that `validate` finds no fault in.
 
         default_mode: P-CHAN-00112, counts when the field programming_mode is 0.
@@ -73,7 +79,7 @@ class Chain:
             zero_orientation=_unit(v[0:3]),
             zero_position=v[3:6] / LIST_UNITS_PER_MM,
             types=axes[:, 0].astype(np.int64),
-            directions=np.array([_unit(row) for row in axes[:, 1:4]]),
+            directions=_directions(axes, reading),
             points=axes[:, 4:7] / LIST_UNITS_PER_MM,
             order=v[49 : 49 + n].astype(np.int64),
             linkage=table[:, :3].copy() if linked else None,
@@ -352,6 +358,12 @@ class _Check:
                 (INDEX_OF_FIELD[field],),
                 f"at least {needed} axes in the channel, without a gap",
             )
+
+
+def _directions(axes: Array, reading: Reading) -> Array:
+    """Directions (n, 3) of rows of type, direction, point; unit unless they scale."""
+    kept = reading.scaled_axes
+    return np.array([r[1:4] if kept and r[0] == LINEAR else _unit(r[1:4]) for r in axes])
 
 
 def _unit(vector: Array) -> Array:

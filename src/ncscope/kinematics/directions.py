@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ncscope.kinematics.chain import CLASSIC, POINT_VECTOR, Chain
 from ncscope.kinematics.orientation import REACH_TOLERANCE_DEG, OrientationSolver
+from ncscope.kinematics.readings import STANDARD, Reading
 from ncscope.kinematics.step import Array
 
 Status = NDArray[np.int8]
@@ -44,13 +45,15 @@ class ProgrammedDirection:
     is_classic: bool
 
     @classmethod
-    def of(cls, chain: Chain, axis_names: tuple[str, ...]) -> ProgrammedDirection:
+    def of(
+        cls, chain: Chain, axis_names: tuple[str, ...], reading: Reading = STANDARD
+    ) -> ProgrammedDirection:
         """The direction as the programming mode of the chain writes it."""
         mode, rotary = chain.programming_mode, _pair(chain.rotary)
         own = OrientationSolver.from_axes(
             chain.directions[list(chain.rotary)], chain.zero_orientation
         )
-        written = _classic_solver(mode) if mode in CLASSIC else own
+        written = _classic_solver(mode, reading) if mode in CLASSIC else own
         vector = mode == POINT_VECTOR
         angles = _classic_columns(mode, axis_names) if mode in CLASSIC else rotary
         return cls(
@@ -160,10 +163,12 @@ def check_rows(given: int, wanted: int, what: str) -> None:
         raise ValueError(f"{what} has {given} rows, but there are {wanted} rows to solve")
 
 
-def _classic_solver(mode: int) -> OrientationSolver:
+def _classic_solver(mode: int, reading: Reading) -> OrientationSolver:
     # The zero tool vector is the direction of the first named axis, literally (D-7).
-    directions = np.array([_LETTER_AXES[letter] for letter in CLASSIC[mode]])
-    return OrientationSolver.from_axes(directions, directions[0])
+    letters = CLASSIC[mode]
+    directions = np.array([_LETTER_AXES[letter] for letter in letters])
+    along_z = reading.classic_z and letters[1] != "C"
+    return OrientationSolver.from_axes(directions, np.eye(3)[2] if along_z else directions[0])
 
 
 def _classic_columns(mode: int, names: tuple[str, ...]) -> tuple[int, int]:

@@ -10,20 +10,22 @@ Source: FCT-C27 (universal kinematics), P-CHAN-00285..00295, P-CHAN-00112.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ncscope.kinematics import kernels
-from ncscope.kinematics.chain import DIRECT, POINT_VECTOR, Chain, validate
+from ncscope.kinematics.chain import CONFORMAL, DIRECT, POINT_VECTOR, Chain, validate
 from ncscope.kinematics.directions import ProgrammedDirection
 from ncscope.kinematics.orientation import OrientationSolver
 from ncscope.kinematics.parameters import KinematicParameters
+from ncscope.kinematics.readings import STANDARD, Reading
 from ncscope.kinematics.step import KinematicsError
 
 Array = NDArray[np.float64]
 Status = NDArray[np.int8]
+Packed = tuple[Array, Array, Array, Array]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +34,8 @@ class UniversalKinematics:
 
     mode: programming mode 10, 12..19 (with RTCP also -1..9). rtcp: False for the complete
     transformation; mode 10 is always complete. direction: how the tool direction is programmed,
-    None with RTCP. packed: the chain for the compiled loops.
+    None with RTCP. packed: the chain for the compiled loops. position: the chain that programmed
+    positions go through, with tool length 0; None where they are X, Y, Z.
     """
 
     id: int
@@ -42,7 +45,8 @@ class UniversalKinematics:
     mode: int
     rtcp: bool
     direction: ProgrammedDirection | None
-    packed: tuple[Array, Array, Array, Array]
+    packed: Packed
+    position: Packed | None
 
     @classmethod
     def from_parameters(
@@ -50,6 +54,7 @@ class UniversalKinematics:
         parameters: KinematicParameters,
         channel_axis_names: Sequence[str],
         default_mode: int = 0,
+        reading: Reading = STANDARD,
     ) -> UniversalKinematics:
         """The kinematics of a data set; raises KinematicsError with its first fault.
 
@@ -59,7 +64,7 @@ class UniversalKinematics:
         faults = validate(parameters, len(names), default_mode, names)
         if faults:
             raise KinematicsError(faults[0].id, faults[0].message)
-        chain = Chain.from_parameters(parameters, default_mode)
+        chain = Chain.from_parameters(parameters, default_mode, reading)
         mode = chain.programming_mode
         rtcp = chain.rtcp and mode != POINT_VECTOR
         return cls(
@@ -69,8 +74,9 @@ class UniversalKinematics:
             chain=chain,
             mode=mode,
             rtcp=rtcp,
-            direction=None if rtcp else ProgrammedDirection.of(chain, names),
+            direction=None if rtcp else ProgrammedDirection.of(chain, names, reading),
             packed=chain.packed(),
+            position=_position_chain(chain, reading),
         )
 
     def forward(self, axes: ArrayLike, tool_length: float = 0.0) -> tuple[Array, Array]:
@@ -133,7 +139,7 @@ class UniversalKinematics:
         if self.direction is not None:
             start = None if near is None else self._rows(near, self.chain.n)[0]
             self.direction.turn_rotary(rows, axes, status, turn, start, pose)
-        target = self._forward_rows(rows, 0.0)[0] if self.mode == DIRECT else rows
+        target = rows if self.position is None else _tool(self.position, rows, 0.0)[0]
         joints, flange, _, unlinkage = self.packed
         kernels.solve_rows(joints, flange, unlinkage, target, float(tool_length), axes, status)
         return axes.reshape(*shape, axes.shape[1]), status.reshape(shape)
@@ -159,8 +165,8 @@ class UniversalKinematics:
         if self.direction is not None:
             words = None if near is None else self._rows(near, self._columns())[0]
             status |= self.direction.name(program, direction, words, turn)
-        if self.mode == DIRECT:
-            joints, flange, _, unlinkage = self.packed
+        if self.position is not None:
+            joints, flange, _, unlinkage = self.position
             kernels.solve_rows(joints, flange, unlinkage, tip, 0.0, program, status)
         else:
             program[:, :3] = tip
@@ -204,10 +210,7 @@ class UniversalKinematics:
         return rows.reshape(-1, rows.shape[-1]), rows.shape[:-1]
 
     def _forward_rows(self, rows: Array, tool_length: float) -> tuple[Array, Array]:
-        tip, direction = np.empty((len(rows), 3)), np.empty((len(rows), 3))
-        joints, flange, linkage, _ = self.packed
-        kernels.forward_rows(joints, flange, linkage, rows, float(tool_length), tip, direction)
-        return tip, direction
+        return _tool(self.packed, rows, tool_length)
 
     def _raise_for(self, status: Status, program: ArrayLike, turn: Array | None) -> None:
         if not status.any():
@@ -221,6 +224,23 @@ class UniversalKinematics:
             asked = self.direction.asked(rows[bad[:1]], turn)[0]
             hint = self.direction.reach_hint(asked, self.axis_names[self.chain.rotary[0]])
         raise KinematicsError(id, message, tuple(int(i) for i in bad), hint)
+
+
+def _tool(packed: Packed, rows: Array, tool_length: float) -> tuple[Array, Array]:
+    """Tool tip and direction, each (m, 3), of axis values (m, n) through a chain."""
+    tip, direction = np.empty((len(rows), 3)), np.empty((len(rows), 3))
+    joints, flange, linkage, _ = packed
+    kernels.forward_rows(joints, flange, linkage, rows, float(tool_length), tip, direction)
+    return tip, direction
+
+
+def _position_chain(chain: Chain, reading: Reading) -> Packed | None:
+    if chain.programming_mode == DIRECT:
+        return chain.packed()
+    if chain.programming_mode == CONFORMAL and reading.conformal_chain:
+        origin = np.zeros(3)
+        return replace(chain, zero_position=origin, points=0.0 * chain.points).packed()
+    return None
 
 
 def explain_status(kinematics: UniversalKinematics, status: int) -> tuple[str, str]:

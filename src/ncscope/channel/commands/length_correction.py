@@ -15,10 +15,12 @@ from ncscope.channel.selection import checked, parameters_of
 from ncscope.coordinates import ActiveLengthCorrection
 from ncscope.kinematics.alignment import LengthCorrection
 from ncscope.kinematics.building import UNIVERSAL, type_of
-from ncscope.kinematics.chain import CONFORMAL
 from ncscope.kinematics.parameters import INDEX_OF_FIELD
 from ncscope.kinematics.universal import UniversalKinematics
 from ncscope.language import tree
+
+CLASSIC_CA = 17
+"""A programming mode in which the position is X, Y, Z; with RTCP its angles do not matter."""
 
 
 def on(draft: Draft, command: tree.HashCommand) -> None:
@@ -53,7 +55,7 @@ def _along_the_tool(
     if type_of(parameters) != UNIVERSAL:
         what = f"#TLC with kinematics {id} of type {parameters.type} is not supported"
         draft.fail("N2001", command.span, what, "only type 91 is; #KIN ID [0] corrects one axis")
-    for name, value in (("programming_mode", CONFORMAL), ("rtcp", 1)):
+    for name, value in (("programming_mode", CLASSIC_CA), ("rtcp", 1)):
         parameters = parameters.with_value(INDEX_OF_FIELD[name], value)
     model = checked(draft, command.span, parameters)
     assert isinstance(model, UniversalKinematics)
