@@ -15,6 +15,7 @@ from ncscope.catalogue import CATALOGUE
 from ncscope.channel.gfunctions import GFUNCTIONS
 from ncscope.channel.variables import VARIABLES, Row
 from ncscope.language.commands import COMMANDS
+from ncscope.language.vocabulary import WORDS
 from ncscope.lists.reference_page import parameters_page
 
 G_EFFECTS = {
@@ -78,6 +79,12 @@ def commands_page() -> str:
         rows = (_cells(f"`#{c.name}`", c.purpose) for c in COMMANDS if c.kind == kind)
         parts.append(f"### {title}")
         parts.append(_table("command|purpose", rows))
+    parts.append("## Other words")
+    for kind, title in COMMAND_KINDS.items():
+        lines = [_cells(f"`{w.name}`", w.purpose) for w in WORDS if w.kind == kind]
+        if lines:
+            parts.append(f"### {title}")
+            parts.append(_table("word|purpose", lines))
     return _page(parts)
 
 

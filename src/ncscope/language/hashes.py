@@ -35,7 +35,7 @@ TYPES = (
     "STRING",
 )
 
-_KEYWORD = re.compile(r"[ \t\0\r]*([A-Za-z]\w*)")
+_KEYWORD = re.compile(r"[ \t\0\r]*([A-Za-z]\w*|2ROT)", re.IGNORECASE)
 _MODIFIER = re.compile(r"[A-Za-z_][A-Za-z_]\w*(?![ \t\0\r]*=)(?!\.)")
 _EQUALS = re.compile(r"[ \t\0\r]*=(?!=)")
 _MOST_KEYWORDS = 5

@@ -37,26 +37,11 @@ from ncscope.language.tree import (
     Unary,
     Word,
 )
+from ncscope.language.vocabulary import axis_commands
 
 AXIS_LETTERS = frozenset("ABCQUVWXYZabcquvwxyz")
 _ADDRESSES = frozenset("DEFHIJKRTdefhijkrt")
-AXIS_COMMANDS = frozenset(
-    (
-        "INDP_SYN",
-        "INDP_ASYN",
-        "OSC",
-        "COMP",
-        "DIST_CTRL",
-        "OVERRIDE",
-        "DYNAMIC",
-        "LIFT",
-        "LIFT_START",
-        "LIFT_END",
-        "SYNC",
-        "POLY",
-        "SET_POSITION",
-    )
-)
+AXIS_COMMANDS = axis_commands()
 
 _SIMPLE = re.compile(
     r"([A-KMQRT-Za-kmqrt-z])([-+]?)([0-9]{1,15}(?:\.[0-9]{0,15})?|\.[0-9]{1,15})"
