@@ -23,6 +23,7 @@ G_EFFECTS = {
     "modal": "Modal state",
     "offset": "Offsets",
     "contour": "Programmed contour: mirror and rotation",
+    "call": "Call of a configured subprogram",
     "quiet": "Noted once, without effect on positions",
     "later": "Refused by name",
 }
@@ -81,10 +82,10 @@ def commands_page() -> str:
         parts.append(_table("command|purpose", rows))
     parts.append("## Other words")
     for kind, title in COMMAND_KINDS.items():
-        lines = [_cells(f"`{w.name}`", w.purpose) for w in WORDS if w.kind == kind]
-        if lines:
+        words = [_cells(f"`{w.name}`", w.purpose) for w in WORDS if w.kind == kind]
+        if words:
             parts.append(f"### {title}")
-            parts.append(_table("word|purpose", lines))
+            parts.append(_table("word|purpose", words))
     return _page(parts)
 
 

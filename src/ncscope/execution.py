@@ -6,20 +6,22 @@ touches files: messages are values of the result.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from ncscope.channel.block import Step, execute
 from ncscope.channel.draft import Message
-from ncscope.channel.flow import Load, Walker, open_warnings
+from ncscope.channel.flow import Walker, open_warnings
 from ncscope.channel.given import GivenRows
 from ncscope.channel.start import start_state
-from ncscope.channel.state import State
+from ncscope.channel.state import CallRequest, Return, Running, State
+from ncscope.channel.subprograms import Load, Passage, call, leave, nesting_warning
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.inspection import inspect
 from ncscope.language import BlockReader, tree
-from ncscope.language.structure import layout, needs_layout
+from ncscope.language.detection import needs_layout
+from ncscope.language.structure import Layout, layout
 from ncscope.machine import Machine
 from ncscope.motion.sampling import FINEST
 from ncscope.recording import Recorder
@@ -49,7 +51,7 @@ class Options:
     bulk: whether plain blocks are taken many at a time; None leaves it to the length
     of the program. The result is the same.
     load: the text of a subprogram file that the program calls, None where there is none; without
-    it no file is found.
+    it no file is found. external: values of the PLC's variables by name, `V.E.NAME`.
     probe: the answers of the probe (`load_rows`), a row for each measuring run; without them it
     triggers at the target.
     """
@@ -60,6 +62,7 @@ class Options:
     strict: bool = False
     bulk: bool | None = None
     load: Load | None = None
+    external: Mapping[str, float | str] = field(default_factory=dict)
     sample: float | None = None
     probe: GivenRows | None = None
 
@@ -104,16 +107,27 @@ def run(
     program: from `load_program`, or NC text. progress: called now and then with the offset in the
     text that was reached; what it raises ends the run. What is wrong with the program is in
     `Trajectory.diagnostics`.
-    Raises KeyError for a clamp position that the machine does not have.
+    Raises KeyError for a clamp position or an external variable that the machine does not have.
     """
     options = options or Options()
     source = program.source if isinstance(program, Program) else Source("program", program)
     loop = _Loop(machine, source, options)
-    if needs_layout(source):
+    _run_configured(loop, machine.settings.start_file)
+    if loop.over:
+        pass
+    elif needs_layout(source):
         _walk(loop, progress)
     else:
         _stream(loop, progress)
+    if not loop.log.stop:
+        _run_configured(loop, machine.settings.end_file)
     return loop.result()
+
+
+def _run_configured(loop: _Loop, name: str) -> None:
+    """A file that the channel list names to run before or behind every program."""
+    if name:
+        _run_files(loop, (CallRequest("L", name, Span(loop.source, 0, 0)),))
 
 
 def _stream(loop: _Loop, progress: Progress | None) -> None:
@@ -127,9 +141,22 @@ def _stream(loop: _Loop, progress: Progress | None) -> None:
             break
         loop.take(block, found)
         if loop.returned is not None:
-            loop.add([_return_in_main(loop.returned)])
+            loop.add([_return_in_main(loop.returned.span)])
+        elif loop.calls and not loop.log.stop:
+            _run_files(loop, loop.calls)
         if progress is not None:
             progress(reader.at)
+
+
+def _run_files(loop: _Loop, calls: tuple[CallRequest, ...]) -> None:
+    """Subprogram files, called from where no table of control statements is needed."""
+    empty = Layout(loop.source, (), None, {}, {}, (), {}, {}, ())
+    walker = Walker(loop.machine, empty, loop.options.load, loop.options.skip)
+    ended, loop.ended = loop.ended, False
+    loop.accept(call(walker, loop.state, calls))
+    _drive(loop, walker, None)
+    loop.ended = loop.ended or ended
+    loop.blamed = None
 
 
 def _walk(loop: _Loop, progress: Progress | None) -> None:
@@ -140,40 +167,52 @@ def _walk(loop: _Loop, progress: Progress | None) -> None:
         message = "the file has subprograms only: a main program begins with % and its name"
         loop.add([diagnostic("20368", table.entries[0].block.span, message)])
     walker = Walker(loop.machine, table, loop.options.load, loop.options.skip)
-    reached = 0
+    _drive(loop, walker, progress)
+    if not loop.log.stop:
+        loop.add(open_warnings(walker))
+
+
+def _drive(loop: _Loop, walker: Walker, progress: Progress | None) -> None:
+    """Block by block until the outermost level of the walker ends."""
+    entry, reached = None, 0
     while not loop.over:
         entry = walker.entry
         if entry is None:
             if not walker.calls:
                 break
-            loop.state = walker.leave(loop.state)
+            loop.accept(leave(walker, loop.state))
             continue
         loop.blamed = walker.blamed
         if entry.keyword and not entry.block.words:
             loop.meet(entry.block, entry.found)
         else:
             loop.take(entry.block, entry.found)
-        if not loop.over:
+        if not loop.log.stop:
             _go_on(loop, walker)
         if progress is not None:
             reached = reached if walker.calls else entry.block.span.start
             progress(reached)
-    if loop.ended and walker.calls:
-        assert entry is not None
-        loop.add([diagnostic("20377", entry.block.span, "the program ends inside a subprogram")])
-    if not loop.log.stop:
-        loop.add(open_warnings(walker))
+    if loop.ended and walker.calls and entry is not None:
+        loop.add([nesting_warning(entry.block.span)])
 
 
 def _go_on(loop: _Loop, walker: Walker) -> None:
-    """The jump, call or return behind the words of a block."""
-    if loop.returned is None:
+    """The jump, calls or return behind the words of a block."""
+    order, calls = loop.returned, loop.calls
+    if order is not None and not walker.calls:
+        loop.add([_return_in_main(order.span)])
+        return
+    if order is None and not loop.ended:
         loop.state, found = walker.step(loop.state)
         loop.add(found)
-    elif walker.calls:
-        loop.state = walker.leave(loop.state)
-    else:
-        loop.add([_return_in_main(loop.returned)])
+    if loop.log.stop:
+        return
+    if calls:
+        then = "end" if loop.ended else order or ""
+        loop.ended = False
+        loop.accept(call(walker, loop.state, calls, then))
+    elif order is not None and not loop.ended:
+        loop.accept(leave(walker, loop.state, order))
 
 
 class _Loop:
@@ -181,7 +220,8 @@ class _Loop:
 
     def __init__(self, machine: Machine, source: Source, options: Options) -> None:
         self.machine, self.source, self.options = machine, source, options
-        self.state = start_state(machine, options.clamp, options.probe)
+        state = start_state(machine, options.clamp, options.probe, options.external)
+        self.state = replace(state, running=Running(file=source.name))
         self.recorder, self.log = Recorder(source, options.sample), _Log()
         self.transitions = Transitions(self.recorder)
         self.messages: list[Message] = []
@@ -189,7 +229,8 @@ class _Loop:
         self.sources = {source.name: source}
         self.count = 0
         self.ended = False
-        self.returned: Span | None = None
+        self.returned: Return | None = None
+        self.calls: tuple[CallRequest, ...] = ()
         self.blamed: Callable[[], Span | None] | None = None
         self.scanner: Scanner | None = None
         long = len(source) >= BULK_FROM
@@ -201,7 +242,6 @@ class _Loop:
 
     def take(self, block: tree.Block, found: tuple[Diagnostic, ...]) -> None:
         """One block in the step lane."""
-        self.returned = None
         if not self.meet(block, found):
             return
         before, step = self.state, execute(self.machine, self.state, block)
@@ -209,14 +249,14 @@ class _Loop:
         self.messages.extend(step.messages)
         self.add(step.diagnostics)
         self.add(_record(self.transitions, before, step, block))
-        self.ended, self.returned = step.ended, step.returned
+        self.ended, self.returned, self.calls = step.ended, step.returned, step.calls
         if step.state.axes is not before.axes:
             self.scanner = None
             self.channels.append((self.recorder.moves, step.state.axes))
 
     def meet(self, block: tree.Block, found: Iterable[Diagnostic]) -> bool:
         """Whether a block that was reached is to be executed; says what was found in it."""
-        self.returned = None
+        self.returned, self.calls = None, ()
         self.sources.setdefault(block.span.source.name, block.span.source)
         self.add(found)
         return not (self.log.stop or _skipped(block, self.options)) and self._counted(block.span)
@@ -225,6 +265,11 @@ class _Loop:
         """Diagnostics of the run, in order."""
         for item in found:
             self.log.add(item, self.options.strict)
+
+    def accept(self, passage: Passage) -> None:
+        """The state behind a call or a return."""
+        self.state, self.ended = passage.state, self.ended or passage.ended
+        self.add(passage.diagnostics)
 
     def take_plain(self, reader: BlockReader) -> None:
         """All plain blocks that follow, in the bulk lane."""

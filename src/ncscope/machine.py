@@ -101,6 +101,20 @@ class Tool:
 
 
 @dataclass(frozen=True, slots=True)
+class ExternalVariable:
+    """One V.E variable of the list of external variables (P-EXTV).
+
+    elements: of an array, 0 for a single value. length: characters of a STRING.
+    access: READ_ONLY, WRITE_ONLY or READ_WRITE, as the NC program sees it.
+    """
+
+    type: str = "REAL64"
+    elements: int = 0
+    length: int = 126
+    access: str = "READ_WRITE"
+
+
+@dataclass(frozen=True, slots=True)
 class ChannelSettings:
     """Channel parameters that change what a program means."""
 
@@ -126,6 +140,13 @@ class ChannelSettings:
     centre_shift_share: float = 0.05  # P-CHAN-00060 mittelpkt_faktor, of the radius
     radius_difference: float = 0.005  # P-CHAN-00171 max_radius_diff_circle, mm
     radius_difference_share: float = 0.001  # P-CHAN-00172 max_proz_radius_diff_circle
+    cycle_changes_stay: bool = False  # P-CHAN-00210 cycle_changes_modal
+    start_file: str = ""  # P-CHAN-00119 start_init_prog_file
+    end_file: str = ""  # P-CHAN-00252 final_prog_file
+    called_files: Mapping[str, str] = field(default_factory=dict)
+    """Files that `M6`, `G80` .. `G89` and `G800` .. `G839` call (P-CHAN-00118, 00160.., 00187)."""
+    search_paths: tuple[str, ...] = ()
+    """Folders of subprograms, first the one that is searched first (P-CHAN-00401 to 00404)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +172,7 @@ class Machine:
     `kinematic_types`: what makes a kinematics of a data set, by type number; 91 is built in.
     `kinematic_reading`: how parameters of type 91 are understood where the manual is open.
     `systems`: the configured coordinate systems by their id, for #CS, #ACS and #BCS alike.
+    `external`: the V.E variables that are declared, by name.
     """
 
     name: str = "XYZ"
@@ -166,6 +188,7 @@ class Machine:
     kinematic_types: Mapping[int, Builder] = field(default_factory=dict)
     kinematic_reading: Reading = STANDARD
     systems: Mapping[int | str, ConfiguredSystem] = field(default_factory=dict)
+    external: Mapping[str, ExternalVariable] = field(default_factory=dict)
 
     @property
     def axis_names(self) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ncscope.channel import tools
+from ncscope.channel import calls, macros, tools
 from ncscope.channel.commands import COMMANDS, LAST, point_to_point
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
@@ -16,9 +16,9 @@ from ncscope.channel.draft import BlockError, Draft, Message
 from ncscope.channel.evaluation import evaluate_number, write_variable
 from ncscope.channel.gfunctions import GFUNCTIONS
 from ncscope.channel.rules import RULES, reject_unused
-from ncscope.channel.state import State
-from ncscope.channel.words import Words, collect_axes, refuse_path_condition
-from ncscope.diagnostics import Diagnostic, Span, diagnostic
+from ncscope.channel.state import CallRequest, Return, State
+from ncscope.channel.words import Words, collect_axes, cycle_letter, refuse_path_condition
+from ncscope.diagnostics import Diagnostic, diagnostic
 from ncscope.kinematics.step import KinematicsError
 from ncscope.language import tree
 from ncscope.language.commands import lookup
@@ -31,8 +31,9 @@ from ncscope.motion.corners import Corner
 class Step:
     """What one block did.
 
-    corner: a chamfer or rounding before the next move. ended: the span of M02 or M30 was reached.
-    returned: where M17 or M29 stands, None without.
+    corner: a chamfer or rounding before the next move. ended: M02 or M30 was reached.
+    returned: what M17 or M29 asks for, None without. calls: the subprograms that run behind the
+    block.
     """
 
     state: State
@@ -40,8 +41,9 @@ class Step:
     messages: tuple[Message, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
     ended: bool = False
-    returned: Span | None = None
+    returned: Return | None = None
     corner: Corner | None = None
+    calls: tuple[CallRequest, ...] = ()
 
     @property
     def failed(self) -> bool:
@@ -66,6 +68,7 @@ def execute(machine: Machine, state: State, block: tree.Block) -> Step:
         draft.ended,
         draft.returned,
         draft.corner,
+        tuple(draft.calls),
     )
 
 
@@ -74,7 +77,7 @@ def _execute(draft: Draft, block: tree.Block) -> None:
     # 1. Block number; what is not supported yet is refused by name.
     number = None if block.number is None else round(evaluate_number(draft, block.number))
     draft.state = replace(draft.state, block=number)
-    _refuse_flow(draft, block)
+    _refuse_axis_commands(draft, block)
     # 2. # commands and declarations.
     for declaration in block.declarations:
         declare(draft, declaration)
@@ -82,7 +85,8 @@ def _execute(draft: Draft, block: tree.Block) -> None:
         if command.name not in LAST:
             _command(draft, command, block)
     # 3. Words from left to right; an assignment acts before the words that follow it.
-    words = _collect(draft, block.words)
+    words = Words()
+    _collect(draft, words, block.words)
     # 4. Modal functions, 5. offsets, 6. tool, feed, 7. motion, 8. program end.
     for rule in RULES:
         rule(draft, words)
@@ -90,14 +94,12 @@ def _execute(draft: Draft, block: tree.Block) -> None:
         if command.name in LAST:
             _command(draft, command, block)
     reject_unused(draft, words)
+    if block.words or block.commands:
+        calls.after_block(draft, bool(draft.moves))
 
 
-def _refuse_flow(draft: Draft, block: tree.Block) -> None:
+def _refuse_axis_commands(draft: Draft, block: tree.Block) -> None:
     for word in block.words:
-        if isinstance(word, tree.Call):
-            draft.later(word.span, f"a subprogram call ({word.kind})")
-        if isinstance(word, (tree.Macro, tree.MacroDefinition)):
-            draft.later(word.span, "a macro")
         if isinstance(word, tree.AxisCommand):
             draft.later(word.span, f"the axis command {word.name}[{word.keyword} ..]")
 
@@ -118,8 +120,7 @@ def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None
 # --- collect -----------------------------------------------------------------------------------
 
 
-def _collect(draft: Draft, words: tuple[tree.Word, ...]) -> Words:
-    collected = Words()
+def _collect(draft: Draft, collected: Words, words: tuple[tree.Word, ...], depth: int = 0) -> None:
     for word in words:
         match word:
             case tree.Assignment():
@@ -129,9 +130,9 @@ def _collect(draft: Draft, words: tuple[tree.Word, ...]) -> Words:
                 _collect_g(draft, collected, word)
             case tree.MWord():
                 number = round(evaluate_number(draft, word.number))
-                if number in (17, 29) and word.arguments:
-                    draft.later(word.span, f"M{number} with brackets")
                 collected.mfunctions[number] = word.span
+                if number in (17, 29):
+                    draft.returned = calls.returned(draft, word)
             case tree.AddressWord():
                 _collect_address(draft, collected, word)
             case tree.AxisWord():
@@ -140,7 +141,12 @@ def _collect(draft: Draft, words: tuple[tree.Word, ...]) -> Words:
                     collected.signed.add(axis)
             case tree.SpindleWord():
                 draft.warn("N2002", word.span, f"spindle word {word.name} does not move an axis")
-    return collected
+            case tree.Call():
+                calls.request(draft, word)
+            case tree.MacroDefinition():
+                macros.define(draft, word)
+            case tree.Macro():
+                _collect(draft, collected, macros.words(draft, word, depth), depth + 1)
 
 
 def _collect_g(draft: Draft, collected: Words, word: tree.GWord) -> None:
@@ -166,10 +172,11 @@ ADDRESS_TWICE = {"D": "20170", "F": "20175", "T": "20165", "I": "20205", "J": "2
 
 
 def _collect_address(draft: Draft, collected: Words, word: tree.AddressWord) -> None:
-    if word.letter in collected.addresses:
+    letter = cycle_letter(draft, word)
+    if letter in collected.addresses:
         draft.fail(
-            ADDRESS_TWICE.get(word.letter, "N2003"),
+            ADDRESS_TWICE.get(letter, "N2003"),
             word.span,
-            f"the block has two {word.letter} words",
+            f"the block has two {letter} words",
         )
-    collected.addresses[word.letter] = (evaluate_number(draft, word.value), word.span)
+    collected.addresses[letter] = (evaluate_number(draft, word.value), word.span)

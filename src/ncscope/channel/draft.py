@@ -7,12 +7,13 @@ was before the block.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NoReturn
 
 import numpy as np
 
-from ncscope.channel.state import Modal, Position, State
+from ncscope.channel.state import CallRequest, Modal, Position, Return, State
 from ncscope.coordinates import Coordinates
 from ncscope.diagnostics import Diagnostic, Span, diagnostic
 from ncscope.kinematics.step import KinematicsError
@@ -44,7 +45,10 @@ class BlockError(Exception):
 
 @dataclass
 class Draft:
-    """The working copy of the state during one block."""
+    """The working copy of the state during one block.
+
+    calls: the subprograms that run behind it, the implicit ones (G80, M6) first.
+    """
 
     machine: Machine
     state: State
@@ -52,8 +56,10 @@ class Draft:
     diagnostics: list[Diagnostic] = field(default_factory=list)
     messages: list[Message] = field(default_factory=list)
     moves: list[Move] = field(default_factory=list)
+    calls: list[CallRequest] = field(default_factory=list)
+    implicit_calls: int = 0
     ended: bool = False
-    returned: Span | None = None
+    returned: Return | None = None
     inserts: dict[str, tuple[float, Span]] = field(default_factory=dict)
     corner: Corner | None = None
 
@@ -75,6 +81,9 @@ class Draft:
         names = self.state.axis_names
         if name in names:
             return names.index(name)
+        if name.startswith("@"):
+            self.cycle_parameters(span)
+            return self.state.main_axes["XYZ".index(name[1])]
         other = [n for n in names if n.lower() == name.lower()]
         hint = f"axis names are case-sensitive: write {other[0]}" if other else ""
         joined = re.fullmatch(r"([A-Z])([0-9.]+)(\D\w*)", name)
@@ -91,6 +100,15 @@ class Draft:
     def shown(self, axis: int, value: float) -> float:
         """A value in mm or degrees as the program reads it (inches under G70)."""
         return value / self.state.unit(axis)
+
+    def cycle_parameters(self, span: Span) -> Mapping[int, float | str]:
+        """The @P values of the running cycle; fails outside of cycles."""
+        held = self.state.running.parameters
+        if held is None:
+            what = span.text.strip()
+            hint = "call it with L CYCLE [NAME=.. @P1=..]"
+            self.fail("21382", span, f"{what} has a meaning in cycles only", hint)
+        return held
 
     # --- changes -------------------------------------------------------------------------------
 

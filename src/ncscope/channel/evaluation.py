@@ -21,6 +21,7 @@ from ncscope.channel.variables import (
 )
 from ncscope.language import tree
 from ncscope.language.expressions import EvaluationError, evaluate, indices_of
+from ncscope.language.vocabulary import word_entry
 from ncscope.machine import OffsetRecord
 
 Value = float | str
@@ -82,7 +83,7 @@ def evaluate_number(draft: Draft, expression: tree.Expression) -> float:
 
 def _read(draft: Draft, node: Node, numbers: tuple[int, ...]) -> Value:
     if isinstance(node, tree.CycleParameter):
-        draft.fail("N2001", node.span, "cycle parameters (@P) are not supported yet")
+        return _cycle_parameter(draft, node, numbers[0])
     if user_variables.is_user(node):
         return user_variables.read(draft, node, numbers)
     assert isinstance(node, tree.Variable)
@@ -90,17 +91,28 @@ def _read(draft: Draft, node: Node, numbers: tuple[int, ...]) -> Value:
     return row.read(draft, reference)
 
 
+def _cycle_parameter(draft: Draft, node: tree.CycleParameter, number: int) -> Value:
+    held = draft.cycle_parameters(node.span)
+    if number not in held:
+        hint = f"V.G.@P[{number}].VALID tells whether the call gave it"
+        draft.fail("20925", node.span, f"@P{number} was not given in the call of the cycle", hint)
+    return held[number]
+
+
 def write_variable(draft: Draft, word: tree.Assignment) -> None:
     """`target = value`, `+=` and the rest; the change counts for the words that follow."""
     node = word.target
-    if isinstance(node, tree.CycleParameter):
-        draft.fail("N2001", node.span, "cycle parameters (@P) are not supported yet")
     if isinstance(node, tree.Variable) and _is_record(node):
         return _write_record(draft, node, word)
     numbers = indices(draft, node)
     value = evaluate_value(draft, word.value)
     if word.operator != "=":
         value = _combined(draft, word, _read(draft, node, numbers), value)
+    if isinstance(node, tree.CycleParameter):
+        held = {**draft.cycle_parameters(node.span), numbers[0]: value}
+        running = replace(draft.state.running, parameters=held)
+        draft.state = replace(draft.state, running=running)
+        return None
     if user_variables.is_user(node):
         return user_variables.write(draft, node, numbers, value)
     assert isinstance(node, tree.Variable)
@@ -138,6 +150,9 @@ def _find(draft: Draft, node: tree.Variable, numbers: tuple[int, ...]) -> tuple[
     if pattern in VARIABLES and not node.parts[-1].indices:
         axis = draft.axis_index(node.parts[-1].name, node.span, "20092")
         return VARIABLES[pattern], replace(reference, axis=axis)
+    group = word_entry(".".join(names[:2]).partition("[")[0] + ".")
+    if group is not None and group.kind == "refused":
+        draft.fail("N2001", node.span, f"{reference.text} is not supported yet ({group.purpose})")
     draft.fail("20196", node.span, f"the variable {reference.text} is unknown")
 
 

@@ -7,13 +7,11 @@ Source: TF5200 programming manual The two limits of $FOR are evaluated before ev
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-
 from ncscope.channel.draft import BlockError, Draft
-from ncscope.channel.evaluation import evaluate_number, evaluate_value, write_variable
-from ncscope.channel.state import State, Stored
-from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
+from ncscope.channel.evaluation import evaluate_number, write_variable
+from ncscope.channel.state import State
+from ncscope.channel.subprograms import Frame, Load
+from ncscope.diagnostics import Diagnostic, Span, diagnostic
 from ncscope.language import tree
 from ncscope.language.structure import (
     LOOPS,
@@ -22,26 +20,12 @@ from ncscope.language.structure import (
     Level,
     Statement,
     jumps,
-    layout,
     shown,
 )
 from ncscope.machine import Machine
 
-Load = Callable[[str], Source | None]
-MOST_CALLS = 20
-"""Deepest nesting of subprogram calls."""
 EQUAL = 0.001
 """Values of $SWITCH and $CASE that differ by less are the same."""
-
-
-@dataclass(frozen=True, slots=True)
-class Return:
-    """Where a call came from, with the V.L variables that come back."""
-
-    layout: Layout
-    level: Level
-    at: int
-    locals: dict[str, Stored]
 
 
 class Walker:
@@ -58,7 +42,7 @@ class Walker:
         self.layout = main
         self.level: Level = main.main or (0, 0)
         self.at = self.level[0]
-        self.calls: list[Return] = []
+        self.calls: list[Frame] = []
         self.layouts: dict[str, Layout] = {main.source.name: main}
         self.passes: dict[tuple[str, int], int] = {}
 
@@ -83,9 +67,7 @@ class Walker:
         entry = self.layout.entries[self.at]
         draft = Draft(self.machine, state, entry.span.place if entry.keyword else "")
         try:
-            if entry.call is not None:
-                self._call(draft, entry.call)
-            elif entry.keyword:
+            if entry.keyword:
                 self.at = self._target(draft, entry)
             else:
                 self.at += 1
@@ -205,10 +187,9 @@ class Walker:
 
     def _goto(self, draft: Draft, control: tree.Control) -> int:
         label = _label(draft, control)
-        target = self.layout.labels.get((self.level[0], label))
-        if target is None:
-            hint = "a label is written N20: or [NAME], first in a block of the same program level"
-            draft.fail("20840", control.span, f"the label {label} is not found", hint)
+        target = self.find_label(draft, label, control.span)
+        if not self.level[0] <= target < self.level[1]:
+            draft.fail("N2001", control.span, "a jump out of L SEQUENCE is not supported yet")
         here = self.layout.around[self.at]
         for statement in self.layout.around[target]:
             if statement.keyword in LOOPS and not any(s is statement for s in here):
@@ -220,53 +201,18 @@ class Walker:
             self.passes[key] = self.passes.get(key, 0) + 1
         return target
 
-    # --- calls ---------------------------------------------------------------------------------
-
-    def _call(self, draft: Draft, call: tree.Call) -> None:
-        name = _called(draft, call)
-        if len(self.calls) >= MOST_CALLS:
-            message = f"subprogram calls are nested more than {MOST_CALLS} deep"
-            draft.fail("20371", call.span, message)
-        found = (
-            self._local(draft, call, name)
-            if call.kind == "LL"
-            else (self._global(draft, call, name))
-        )
-        state = draft.state
-        kept = {k: v for k, v in state.variables.items() if k.startswith("V.L.")}
-        self.calls.append(Return(self.layout, self.level, self.at + 1, kept))
-        draft.state = _without_locals(state)
-        self.layout, self.level = found
-        self.at = self.level[0]
-
-    def _local(self, draft: Draft, call: tree.Call, name: str) -> tuple[Layout, Level]:
-        level = self.layout.subprograms.get(name)
-        if level is None:
-            has = ", ".join(sorted(self.layout.subprograms)) or "none"
-            message = f"the local subprogram {name} is not found; the file has: {has}"
-            draft.fail("20373", call.span, message, f"write %L {name} before its blocks")
-        return self.layout, level
-
-    def _global(self, draft: Draft, call: tree.Call, name: str) -> tuple[Layout, Level]:
-        found = self.layouts.get(name)
-        if found is None:
-            source = self.load(name) if self.load is not None else None
-            if source is None:
-                hint = "it must lie in the folder of the program"
-                draft.fail("20369", call.span, f"the subprogram file {name} is not found", hint)
-            found = self.layouts[name] = layout(source, self.skip)
-        if found.diagnostics:
-            raise BlockError(found.diagnostics[0])
-        if found.main is None:
-            draft.fail("20369", call.span, f"the file {name} has no blocks outside of %L")
-        return found, found.main
-
-    def leave(self, state: State) -> State:
-        """Back to the line behind the call."""
-        back = self.calls.pop()
-        self.layout, self.level, self.at = back.layout, back.level, back.at
-        variables = {**_without_locals(state).variables, **back.locals}
-        return replace(state, variables=variables)
+    def find_label(self, draft: Draft, label: str, span: Span) -> int:
+        """The block with a label of this program level; N[expr]: is evaluated now."""
+        start = self.level[0]
+        target = self.layout.labels.get((start, label))
+        if target is not None:
+            return target
+        for at in self.layout.computed.get(start, ()):
+            number = self.layout.entries[at].block.number
+            if number is not None and f"N{round(evaluate_number(draft, number))}" == label:
+                return at
+        hint = "a label is written N20: or [NAME], first in a block of the same program level"
+        draft.fail("20840", span, f"the label {label} is not found", hint)
 
 
 def _open(around: tuple[Statement, ...]) -> tuple[Statement, ...]:
@@ -327,22 +273,3 @@ def _label(draft: Draft, control: tree.Control) -> str:
     if isinstance(control.target, tree.Number):
         return f"N{round(control.target.value)}"
     return f"N{round(evaluate_number(draft, control.values[-1]))}"
-
-
-def _called(draft: Draft, call: tree.Call) -> str:
-    """The name of a subprogram: written, of a macro, or in a string variable."""
-    match call.target:
-        case tree.Name(text=text):
-            return text
-        case tree.Macro(name=name):
-            return draft.state.macros.get(name, name)
-        case tree.Variable():
-            value = evaluate_value(draft, call.target)
-            if isinstance(value, str):
-                return value
-    draft.fail("20369", call.span, "the name of the subprogram is not a text")
-
-
-def _without_locals(state: State) -> State:
-    kept = {k: v for k, v in state.variables.items() if not k.startswith("V.L.")}
-    return state if len(kept) == len(state.variables) else replace(state, variables=kept)

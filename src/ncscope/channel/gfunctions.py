@@ -1,6 +1,6 @@
 """Every G function: its modal group, the control's id for two of a group, and what it does here.
 
-`effect` is `motion`, `modal`, `contour`, `offset`, `quiet` (no effect on positions, noted
+`effect` is `motion`, `modal`, `contour`, `offset`, `call`, `quiet` (no effect on positions, noted
 once) or `later` (moves positions and is refused by name).
 Source: TF5200 programming manual; P-CHAN-00063 modal groups.
 """
@@ -52,7 +52,7 @@ def _rows() -> dict[int, GFunction]:
     add("68", "rotation", None, "contour", "contour rotation")
     add("69", "rotation", None, "contour", "contour rotation off")
     add("70 71", "unit", "20118", "modal", "inches or millimetres")
-    add(" ".join(map(str, [*range(80, 90), *range(800, 840)])), "cycle", "20119", "later",
+    add(" ".join(map(str, [*range(80, 90), *range(800, 840)])), "cycle", "20119", "call",
         "implicit subprogram call")
     add("90 91", "absolute", "20120", "modal", "absolute or relative values")
     add("92", None, None, "offset", "reference point offset")

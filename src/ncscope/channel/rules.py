@@ -9,7 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ncscope.channel import circle, contour, corner, manual, measuring, offsets, tools, travel
+from ncscope.channel import (
+    calls,
+    circle,
+    contour,
+    corner,
+    manual,
+    measuring,
+    offsets,
+    tools,
+    travel,
+)
 from ncscope.channel.draft import Draft
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.words import Words
@@ -17,8 +27,8 @@ from ncscope.diagnostics import Span
 from ncscope.language import tree
 from ncscope.machine import ZERO_GROUPS
 
-KNOWN_M = frozenset((0, 1, 2, 3, 4, 5, 19, 30))
-"""Stops, program end and spindle: without effect on positions beyond any doubt."""
+KNOWN_M = frozenset((0, 1, 2, 3, 4, 5, 17, 19, 29, 30, *range(40, 46)))
+"""Stops, program end, return and spindle: without effect on positions beyond any doubt."""
 
 
 def _refuse_g(draft: Draft, words: Words) -> None:
@@ -134,9 +144,7 @@ def _technology(draft: Draft, words: Words) -> None:
         if letter == "E" and word is not None:
             _end_feed(draft, *word)
     for number, span in words.mfunctions.items():
-        if number in (17, 29):
-            draft.returned = span
-        elif number not in KNOWN_M:
+        if number not in KNOWN_M and not (number == 6 and calls.tool_change_file(draft)):
             draft.warn("N2002", span, f"M{number:02d} is taken as without effect on positions")
 
 
@@ -182,6 +190,7 @@ RULES: tuple[Callable[[Draft, Words], None], ...] = (
     corner.stored_size,
     travel.motion,
     corner.beside_motion,
+    calls.implicit,
     _end,
 )
 """The rules in their order of effect; each takes its words and leaves the rest."""

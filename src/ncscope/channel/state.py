@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from ncscope.channel.given import GivenRows
 from ncscope.contour import Turn
 from ncscope.coordinates import Coordinates
+from ncscope.diagnostics import Span
 from ncscope.frames import Array, Frame
 from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.machine import Axis, Tool, ZeroOffsets
@@ -174,11 +175,67 @@ class Measuring:
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """One user variable: a number, a text, or an array with its dimensions."""
+    """One user variable: a number, a text, or an array with its dimensions.
+
+    length: of a STRING. level: the program level that declared a V.L or V.CYC variable; outer: the
+    variable of an outer level that this one hides.
+    """
 
     value: float | str | tuple[float | str, ...]
     dimensions: tuple[int, ...] = ()
     type: str = "REAL64"
+    length: int = 0
+    level: int = 0
+    outer: Stored | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class CallRequest:
+    """A subprogram that a block calls; it is found and entered behind the block.
+
+    kind: `LL` for a local one, `L` for a file, `SEQUENCE` for a part of a program. name: "" for
+    the running program of a sequence. parameters: @P values of a cycle by number, None for a plain
+    subprogram. modal: `MODAL_MOVE` or `MODAL_BLOCK` when the request comes from a modal cycle.
+    first, last: labels or block numbers of a sequence; endtag: its own call ends it too.
+    home: the file whose local subprograms LL means, "" for the running one.
+    """
+
+    kind: str
+    name: str
+    span: Span
+    parameters: Mapping[int, float | str] | None = None
+    modal: str = ""
+    first: str = ""
+    last: str = ""
+    repeat: int = 1
+    endtag: bool = False
+    home: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Return:
+    """What M17 brackets ask for: how many calls to leave (0: all), and a label to go on at."""
+
+    span: Span
+    levels: int = 1
+    label: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Running:
+    """Which program runs: what the blocks of a subprogram or cycle may ask.
+
+    level: depth of calls, 0 in the main program. file: its name. parameters: @P values of the
+    cycle, None outside of one. modal: the cycle that is called again after every motion.
+    in_modal: whether that cycle is what runs. retain: modal changes of this cycle stay.
+    """
+
+    level: int = 0
+    file: str = ""
+    parameters: Mapping[int, float | str] | None = None
+    modal: CallRequest | None = None
+    in_modal: bool = False
+    retain: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,6 +251,7 @@ class State:
     values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
     #MCS is on. measured: what G100 measured, by axis name. probe: the answers that are given.
     circle: the corrected I, J, K and R of the last arc, mm. message_file: where #MSG SAVE writes.
+    called_files: what #FILE NAME set for M6 and G80 ... running: the program level.
     """
 
     axes: tuple[Axis, ...]
@@ -222,6 +280,8 @@ class State:
     measuring: Measuring = field(default_factory=Measuring)
     probe: GivenRows | None = None
     message_file: str = "message.txt"
+    called_files: Mapping[str, str] = field(default_factory=dict)
+    running: Running = field(default_factory=Running)
     block: int | None = None
 
     @property

@@ -1,6 +1,8 @@
-"""The user's own variables: P parameters, V.P, V.S and V.L, and their declaration.
+"""The user's own variables: P parameters, V.P, V.S, V.L, V.CYC and V.E, and their declaration.
 
-Source: TF5200 programming manual Array indices count from 0; a P number counts from 1.
+Array indices count from 0; a P number counts from 1. V.L and V.CYC belong to the program level that
+declares them and are seen below it; a level may hide one of the same name.
+Source: TF5200 programming manual, variables; TF5200 external variables (P-EXTV).
 """
 
 from __future__ import annotations
@@ -12,11 +14,25 @@ from ncscope.channel.draft import Draft
 from ncscope.channel.state import Stored
 from ncscope.diagnostics import Span
 from ncscope.language import tree
+from ncscope.language.functions import rounded
 
 Value = float | str
 Node = tree.Variable | tree.Parameter
+GROUPS = ("P", "S", "L", "CYC", "E")
+DECLARED_GROUPS = ("V.L.", "V.CYC.", "V.E.")
+"""Variables that no assignment brings into being."""
 MAX_ELEMENTS = 1_000_000
 """Largest array; a declaration beyond it is a mistake, not a need."""
+MAX_DIMENSIONS = 4
+LONGEST_STRING = 126
+INTEGER_RANGES = {
+    "SGN08": (-128, 127),
+    "UNS08": (0, 255),
+    "SGN16": (-32768, 32767),
+    "UNS16": (0, 65535),
+    "SGN32": (-(2**31), 2**31 - 1),
+    "UNS32": (0, 2**32 - 1),
+}
 
 
 def is_user(node: tree.Variable | tree.Parameter | tree.CycleParameter) -> bool:
@@ -27,7 +43,7 @@ def is_user(node: tree.Variable | tree.Parameter | tree.CycleParameter) -> bool:
         isinstance(node, tree.Variable)
         and len(node.parts) >= 3
         and node.parts[0].name.upper() == "V"
-        and node.parts[1].name.upper() in ("P", "S", "L")
+        and node.parts[1].name.upper() in GROUPS
     )
 
 
@@ -38,7 +54,9 @@ def read(draft: Draft, node: Node, numbers: tuple[int, ...]) -> Value:
     if stored is None:
         if isinstance(node, tree.Parameter):
             draft.fail("20925", node.span, f"{key} has no value yet", f"write {key} = .. first")
-        draft.fail("20932", node.span, f"the variable {key} does not exist")
+        draft.fail("20932", node.span, f"the variable {key} does not exist", _missing(key))
+    if key.startswith("V.E."):
+        _check_access(draft, key, "READ", node.span)
     if isinstance(stored.value, tuple):
         return stored.value[_element(draft, key, stored, indices, node.span)]
     _refuse_indices(draft, key, indices, node.span)
@@ -53,9 +71,14 @@ def write(draft: Draft, node: Node, numbers: tuple[int, ...], value: Value) -> N
         if indices:
             id = "20921" if isinstance(node, tree.Parameter) else "20972"
             draft.fail(id, node.span, f"the array {key} is not declared", "declare it in #VAR")
-        if key.upper().startswith("V.L."):
-            draft.fail("20932", node.span, f"{key} is not declared", "declare it in #VAR")
-        return _store(draft, key, Stored(value))
+        if key.startswith(DECLARED_GROUPS):
+            draft.fail("20932", node.span, f"{key} is not declared", _missing(key))
+        return _store(
+            draft, key, Stored(value, type="STRING" if isinstance(value, str) else "REAL64")
+        )
+    if key.startswith("V.E."):
+        _check_access(draft, key, "WRITE", node.span)
+    value = _fitting(draft, key, stored, value, node.span)
     if isinstance(stored.value, tuple):
         element = _element(draft, key, stored, indices, node.span)
         items = list(stored.value)
@@ -65,31 +88,86 @@ def write(draft: Draft, node: Node, numbers: tuple[int, ...], value: Value) -> N
     return _store(draft, key, replace(stored, value=value))
 
 
+def _missing(key: str) -> str:
+    if key.startswith("V.E."):
+        return f"declare it in the list of external variables, or give --set {key}=.."
+    return "declare it in #VAR" if key.startswith(DECLARED_GROUPS) else "assign a value to it first"
+
+
+def _check_access(draft: Draft, key: str, right: str, span: Span) -> None:
+    """READ or WRITE against the access rights of the list (P-EXTV-00006)."""
+    declared = draft.machine.external.get(key.removeprefix("V.E."))
+    if declared is not None and right not in declared.access:
+        what = "read" if right == "READ" else "written"
+        id = "20097" if right == "READ" else "20100"
+        draft.fail(id, span, f"{key} cannot be {what}: its access right is {declared.access}")
+
+
+def _fitting(draft: Draft, key: str, stored: Stored, value: Value, span: Span) -> Value:
+    """The value as the type of the variable holds it; a fraction is rounded for a whole number."""
+    if isinstance(value, str) != (stored.type == "STRING"):
+        what = "a text" if isinstance(value, str) else "a number"
+        draft.fail("20392", span, f"{key} is of type {stored.type} and cannot hold {what}")
+    if isinstance(value, str):
+        if stored.length and len(value) > stored.length:
+            what = f"{key} holds {stored.length} characters, the text has {len(value)}"
+            draft.fail("N1008", span, what, "declare it with a larger STRING[..]")
+        return value
+    if stored.type == "BOOLEAN":
+        return float(abs(value) >= 0.5)
+    limits = INTEGER_RANGES.get(stored.type)
+    if limits is None:
+        return value
+    whole = rounded(value)
+    if not limits[0] <= whole <= limits[1]:
+        what = f"{whole} is outside of {limits[0]} to {limits[1]}"
+        draft.fail("21883", span, f"{key} is of type {stored.type}: {what}")
+    return float(whole)
+
+
 def declare(
-    draft: Draft, item: tree.Declaration, numbers: tuple[int, ...], values: tuple[Value, ...]
+    draft: Draft,
+    item: tree.Declaration,
+    numbers: tuple[int, ...],
+    values: tuple[Value, ...],
+    length: int = LONGEST_STRING,
 ) -> None:
-    """One line between #VAR and #ENDVAR; `values` are its evaluated initial values."""
+    """One line between #VAR and #ENDVAR; `values` are its evaluated initial values.
+
+    length: characters that a STRING holds.
+    """
     key, dimensions = _resolve(draft, item.target, numbers)
-    if key in draft.state.variables and not isinstance(item.target, tree.Parameter):
+    old = draft.state.variables.get(key)
+    level = draft.state.running.level if key.startswith(("V.L.", "V.CYC.")) else 0
+    if old is not None and old.level == level and not isinstance(item.target, tree.Parameter):
         draft.fail("20909", item.span, f"{key} already exists")
+    if len(dimensions) > MAX_DIMENSIONS:
+        draft.fail("20974", item.span, f"an array has at most {MAX_DIMENSIONS} dimensions")
     if any(d <= 0 for d in dimensions) or math.prod(dimensions) > MAX_ELEMENTS:
         draft.fail("20906", item.span, f"the dimensions of {key} are not allowed")
     count = math.prod(dimensions)
     if len(values) > count:
         draft.fail("20912", item.span, f"{key} has {count} elements but {len(values)} values")
-    start: Value = "" if (item.type or "").upper() == "STRING" else 0.0
-    filled = (*values, *([start] * (count - len(values))))
     kind = (item.type or "REAL64").upper()
-    stored = Stored(filled if dimensions else filled[0], dimensions, kind)
-    _store(draft, key, stored)
+    kind = "REAL64" if kind == "REAL" else kind
+    start: Value = "" if kind == "STRING" else 0.0
+    empty = Stored(start, dimensions, kind, length, level, old if level else None)
+    fitted = [_fitting(draft, key, empty, value, item.span) for value in values]
+    filled = (*fitted, *([start] * (count - len(fitted))))
+    _store(draft, key, replace(empty, value=filled if dimensions else filled[0]))
 
 
 def delete(draft: Draft, node: Node, numbers: tuple[int, ...]) -> None:
     """#DELETE of one variable."""
     key, _ = _resolve(draft, node, numbers)
-    if key not in draft.state.variables:
+    stored = draft.state.variables.get(key)
+    if stored is None:
         draft.fail("20932", node.span, f"the variable {key} does not exist")
+    if key.startswith("V.E."):
+        draft.fail("20908", node.span, "an external variable cannot be deleted")
     kept = {k: v for k, v in draft.state.variables.items() if k != key}
+    if stored.outer is not None:
+        kept[key] = stored.outer
     draft.state = replace(draft.state, variables=kept)
 
 

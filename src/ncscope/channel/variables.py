@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ncscope.channel import offsets, readers, tool_variables
+from ncscope.channel import offsets, program_variables, readers, tool_variables
 from ncscope.channel.draft import Draft
 from ncscope.channel.rows import Reference, Row, axis_rows, length, plain, refuse_while_active
 from ncscope.coordinates import Offset
@@ -193,6 +193,8 @@ VARIABLES: dict[str, Row] = {
     "V.G.MEAS_TYPE": Row(plain(lambda d: d.state.measuring.type), None, "measuring type"),
     **axis_rows("V.A.MERF", Row(readers.was_measured, None, "1 when the axis has been measured")),
     **axis_rows("V.A.MANUAL_OFFSETS", Row(lambda d, r: 0.0, None, "manual offsets: no jog here")),
+    **axis_rows("V.A.PSET", Row(_offset_reader("pset"), None, "position preset (#PSET)")),
     **axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),
+    **program_variables.PROGRAM_ROWS,
 }
 """Every variable of the control that is known here, by pattern."""

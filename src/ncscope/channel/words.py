@@ -26,6 +26,16 @@ class Words:
     tool_writes: dict[str, Span] = field(default_factory=dict)
 
 
+def cycle_letter(draft: Draft, word: tree.AddressWord) -> str:
+    """The letter of an address word: in a cycle @I @J @K are the centre words of the plane."""
+    if not word.letter.startswith("@"):
+        return word.letter
+    draft.cycle_parameters(word.span)
+    if word.letter == "@S":
+        return "S"
+    return "IJK"[draft.state.main_axes["IJK".index(word.letter[1])]]
+
+
 def collect_axes(draft: Draft, axes: dict[int, tuple[float, Span]], word: tree.AxisWord) -> int:
     """Adds the word to `axes` and returns its axis; fails for an unknown axis or a second value."""
     axis = draft.axis_index(word.name, word.span)

@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ncscope.cli.inputs import run_program
-from ncscope.cli.options import MachineOption, ProbeOption
+from ncscope.cli.options import (
+    FoldersOption,
+    MachineOption,
+    ProbeOption,
+    SetOption,
+    read_settings,
+)
 from ncscope.cli.screen import fail, show_diagnostics
 
 if TYPE_CHECKING:
@@ -19,6 +25,8 @@ def check_command(
     paths: Annotated[list[Path], typer.Argument(help="Lists, folders of lists, programs.")],
     machine: MachineOption = None,
     probe: ProbeOption = None,
+    values: SetOption = None,
+    folders: FoldersOption = None,
     strict: Annotated[bool, typer.Option("--strict", help="A warning counts as an error.")] = False,
 ) -> None:
     """Check lists and programs; exit code 1 on errors."""
@@ -33,7 +41,8 @@ def check_command(
         else:
             from ncscope.execution import Options
 
-            result, more, _ = run_program(path, machine, Options(max_blocks=1_000_000), probe)
+            options = Options(max_blocks=1_000_000, external=read_settings(values))
+            result, more, _ = run_program(path, machine, options, probe, folders or ())
             found.extend([*(d for d in more if d.severity != "note"), *result.diagnostics])
     show_diagnostics(found)
     counts = {s: sum(d.severity == s for d in found) for s in ("error", "warning", "note")}

@@ -10,11 +10,14 @@ import typer
 from ncscope.cli.inputs import run_program
 from ncscope.cli.options import (
     ClampOption,
+    FoldersOption,
     MachineOption,
     ProbeOption,
+    SetOption,
     SkipOption,
     read_levels,
     read_place,
+    read_settings,
 )
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
 
@@ -35,6 +38,8 @@ def explain_command(
     clamp: ClampOption = None,
     skip: SkipOption = "",
     probe: ProbeOption = None,
+    values: SetOption = None,
+    folders: FoldersOption = None,
 ) -> None:
     """Take the axis positions of one block apart, each part with the line that set it."""
     import json
@@ -43,7 +48,8 @@ def explain_command(
     from ncscope.views.table import explain_table
 
     path, line, number = read_place(place)
-    result, found, source = run_program(path, machine, Options(clamp, read_levels(skip)), probe)
+    options = Options(clamp, read_levels(skip), external=read_settings(values))
+    result, found, source = run_program(path, machine, options, probe, folders or ())
     try:
         if number is not None:
             line = result.line_of_block(number)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from ncscope.cli.screen import fail, progress_bar
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ncscope.channel.given import GivenRows
     from ncscope.diagnostics import Diagnostic
     from ncscope.execution import Options, Program
@@ -16,12 +18,17 @@ if TYPE_CHECKING:
 
 
 def run_program(
-    path: Path, machine_path: Path | None, options: Options, probe: Path | None = None
+    path: Path,
+    machine_path: Path | None,
+    options: Options,
+    probe: Path | None = None,
+    folders: Sequence[Path] = (),
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
     """The run of a program, what the lists and the file of probe answers have wrong, and the
     program; ends the process when a file cannot be read."""
     from dataclasses import replace
 
+    from ncscope.channel.start import start_state
     from ncscope.execution import run
     from ncscope.loading import load_program, subprogram_loader
     from ncscope.trajectory import Trajectory
@@ -31,13 +38,18 @@ def run_program(
         has = ", ".join(str(i) for i in sorted(machine.clamp_positions)) or "none"
         fail(f"clamp position {options.clamp} does not exist; the lists have: {has}")
     try:
+        start_state(machine, external=options.external)
+    except KeyError as error:
+        fail(f"--set: {error.args[0]}")
+    try:
         program = load_program(path)
     except OSError as error:
         fail(f"cannot read {path}: {error.strerror}")
     options = replace(options, probe=_read_rows(probe, found))
     if any(d.is_error for d in found):  # on the wrong machine every number would be wrong
         return Trajectory((), machine.axis_names, ok=False), found, program
-    options = replace(options, load=subprogram_loader([path.parent]))
+    paths = machine.settings.search_paths
+    options = replace(options, load=subprogram_loader([path.parent, *folders], paths))
     with progress_bar(len(program.source)) as progress:
         result = run(machine, program, options, progress)
     return result, found, program

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
@@ -24,6 +25,38 @@ ProbeOption = Annotated[
     Path | None,
     typer.Option("--probe", help="CSV: a row for each measuring run, a column for each axis."),
 ]
+
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="V.E.NAME=VALUE", help="Value of a variable of the PLC."),
+]
+FoldersOption = Annotated[
+    list[Path] | None,
+    typer.Option("--subprograms", help="Another folder in which called files may lie."),
+]
+
+
+def read_settings(texts: list[str] | None) -> dict[str, float | str]:
+    """The values of --set: numbers, TRUE and FALSE, or texts with or without quotes."""
+    values: dict[str, float | str] = {}
+    for text in texts or ():
+        name, equals, value = text.partition("=")
+        if not equals or not name.startswith("V.E."):
+            fail(f"--set {text}: write V.E.NAME=VALUE")
+        values[name.strip()] = _setting(value.strip())
+    return values
+
+
+def _setting(text: str) -> float | str:
+    if len(text) >= 2 and text[0] == text[-1] == '"':
+        return text[1:-1]
+    if text.upper() in ("TRUE", "FALSE"):
+        return float(text.upper() == "TRUE")
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    return number if isfinite(number) else text
 
 
 def read_levels(text: str) -> frozenset[int]:

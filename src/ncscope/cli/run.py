@@ -10,7 +10,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ncscope.cli.inputs import run_program
-from ncscope.cli.options import ClampOption, MachineOption, ProbeOption, SkipOption, read_levels
+from ncscope.cli.options import (
+    ClampOption,
+    FoldersOption,
+    MachineOption,
+    ProbeOption,
+    SetOption,
+    SkipOption,
+    read_levels,
+    read_settings,
+)
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
 
 if TYPE_CHECKING:
@@ -37,6 +46,8 @@ def run_command(
     clamp: ClampOption = None,
     skip: SkipOption = "",
     probe: ProbeOption = None,
+    values: SetOption = None,
+    folders: FoldersOption = None,
     max_blocks: Annotated[
         int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
     ] = 0,
@@ -58,8 +69,11 @@ def run_command(
         fail(f"--out {out} is the program itself")
     if sample is not None and not sample >= FINEST:
         fail(f"--sample {sample:g}: the tolerance has to be {FINEST:g} or more (mm and degrees)")
-    options = Options(clamp, read_levels(skip), max_blocks, strict, sample=sample)
-    result, found, _ = run_program(program, machine, options, probe)
+    external = read_settings(values)
+    options = Options(
+        clamp, read_levels(skip), max_blocks, strict, external=external, sample=sample
+    )
+    result, found, _ = run_program(program, machine, options, probe, folders or ())
     found = [d for d in found if d.severity != "note"]
     errors = write_messages(messages, result.messages, (program,))
     ok = result.ok and not any(d.is_error for d in (*found, *errors))

@@ -7,11 +7,8 @@ Source: TF5200 programming manual
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-
-import numpy as np
 
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.language.parser import iterate_blocks
@@ -33,13 +30,11 @@ BRANCHES = {
 }
 ENDINGS = {end: opening for opening, end in OPENINGS.items()}
 MOST_NESTED = 100
-_IF_COMMAND = re.compile(r"#[ \t\0\r]*(?:IF|ELSE|ENDIF)(?![A-Za-z])", re.IGNORECASE)
-_SUBPROGRAM = re.compile(r"%[ \t\0\r]*L[ \t\0\r]", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One block as it is executed: without the words behind a call, and what is jump apart.
+    """One block as it is executed: without the words behind a call.
 
     keyword: the control statement without `$` (`#IF` with its `#`), "" for none.
     """
@@ -47,7 +42,6 @@ class Entry:
     block: Block
     found: Diagnostics
     keyword: str = ""
-    call: Call | None = None
 
     @property
     def span(self) -> Span:
@@ -70,6 +64,7 @@ class Layout:
 
     statements: by the index of any of their own blocks; $BREAK and $CONTINUE map to the statement
     that they leave or go on with. around: the statements around a block, outermost first.
+    computed: blocks whose label is an expression (`N[P1*10]:`), by the start of their level.
     """
 
     source: Source
@@ -79,31 +74,8 @@ class Layout:
     statements: Mapping[int, Statement]
     around: tuple[tuple[Statement, ...], ...]
     labels: Mapping[tuple[int, str], int]
+    computed: Mapping[int, list[int]]
     diagnostics: Diagnostics
-
-
-def needs_layout(source: Source) -> bool:
-    """Whether the text may hold control flow or calls; quick, and never wrong with False."""
-    text = source.text
-    if "$" in text or ("#" in text and _IF_COMMAND.search(text)):
-        return True
-    return _has_call(source) or ("%" in text and _SUBPROGRAM.search(text) is not None)
-
-
-def _has_call(source: Source) -> bool:
-    """An L that begins a word, or follows a number, with a blank or a quote behind it."""
-    if "L" not in source.text and "l" not in source.text:
-        return False  # CAM programs: nothing is copied
-    data = source.data
-    at = np.flatnonzero((data | 32) == ord("l"))
-    following = np.append(data, 10)[at + 1]
-    at = at[np.isin(following, np.frombuffer(b' \t\0\r\n"', dtype=np.uint8))]
-    text = source.text
-    for i in at.tolist():
-        start = i - 1 if i and text[i - 1] in "lL" else i
-        if start == 0 or not (text[start - 1].isalpha() or text[start - 1] in "_."):
-            return True
-    return False
 
 
 def layout(source: Source, skip: frozenset[int] = frozenset()) -> Layout:
@@ -119,7 +91,7 @@ def layout(source: Source, skip: frozenset[int] = frozenset()) -> Layout:
         builder.level(level)
     return Layout(
         source, entries, main, subprograms, builder.statements, tuple(builder.around),
-        builder.labels, tuple(builder.found),
+        builder.labels, builder.computed, tuple(builder.found),
     )  # fmt: skip
 
 
@@ -129,14 +101,13 @@ def _entry(block: Block, found: Diagnostics) -> Entry:
     name = block.commands[0].name if block.commands else ""
     if name in ("IF", "ELSE", "ENDIF"):
         return Entry(block, found, f"#{name}")
-    calls = [i for i, w in enumerate(block.words) if isinstance(w, Call) and w.kind in ("L", "LL")]
-    if not calls:
+    calls = [i for i, w in enumerate(block.words) if isinstance(w, Call)]
+    if not calls or len(block.words) == calls[0] + 1:
         return Entry(block, found)
     call, rest = block.words[calls[0]], block.words[calls[0] + 1 :]
     assert isinstance(call, Call)
-    if rest:
-        found = (*found, _behind_call(call, rest[0].span))
-    return Entry(replace(block, words=block.words[: calls[0]]), found, "", call)
+    found = (*found, _behind_call(call, rest[0].span))
+    return Entry(replace(block, words=block.words[: calls[0] + 1]), found)
 
 
 def _behind_call(call: Call, span: Span) -> Diagnostic:
@@ -167,6 +138,7 @@ class _Builder:
     entries: tuple[Entry, ...]
     statements: dict[int, Statement] = field(default_factory=dict)
     labels: dict[tuple[int, str], int] = field(default_factory=dict)
+    computed: dict[int, list[int]] = field(default_factory=dict)
     found: list[Diagnostic] = field(default_factory=list)
     around: list[tuple[Statement, ...]] = field(default_factory=list)
     open: tuple[Statement, ...] = ()
@@ -188,6 +160,9 @@ class _Builder:
     def _label(self, level: Level, at: int, entry: Entry) -> None:
         label = entry.block.label
         if label is None:
+            return
+        if "[" in label or label[1:2] in ("P", "V", "@"):
+            self.computed.setdefault(level[0], []).append(at)
             return
         first = self.labels.setdefault((level[0], label), at)
         if first != at:

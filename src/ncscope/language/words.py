@@ -9,8 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from ncscope.language.calls import call
 from ncscope.language.cursor import Cursor
-from ncscope.language.groups import group, groups
+from ncscope.language.groups import groups
 from ncscope.language.terms import (
     close,
     expression,
@@ -27,11 +28,12 @@ from ncscope.language.tree import (
     AxisWord,
     Call,
     Expression,
+    Group,
     GWord,
+    Item,
     Macro,
     MacroDefinition,
     MWord,
-    Name,
     Number,
     SpindleWord,
     Unary,
@@ -54,9 +56,7 @@ _ASSIGN = re.compile(r"[ \t\0\r]*([-+*/]?=)(?!=)")
 _EQUALS = re.compile(r"[ \t\0\r]*=(?!=)")
 _SPINDLE = re.compile(r"[Ss](?:\.[A-Za-z_]\w*|\w+(?=[ \t\0\r]*=(?!=))|[0-9]+(?=[ \t\0\r]*\[))")
 _SPINDLE_BRACKET = re.compile(r"[Ss][ \t\0\r]*\[")
-_CALL = re.compile(r"(LL|L)(?=[ \t\0\r\"]|\Z)", re.IGNORECASE)
-_SPECIAL_CALL = re.compile(r"(CYCLE|SEQUENCE)(?=[ \t\0\r]*\[)", re.IGNORECASE)
-_FILE_NAME = re.compile(r'[^\s\0\[\]"#;,()]+')
+_CYCLE_WORD = re.compile(r"@[XYZIJKSxyzijks](?![A-Za-z_])")
 _RUN = re.compile(r"[^\W0-9]\w*")
 
 
@@ -70,6 +70,11 @@ def word(cursor: Cursor) -> Word:
         return _macro(cursor)
     if starts_target(cursor):
         return _assignment(cursor)
+    if letter == "@":
+        start = cursor.at
+        named = cursor.match(_CYCLE_WORD)
+        if named is not None:
+            return _cycle_word(cursor, named.group()[1], start)
     if letter in AXIS_LETTERS:
         return _axis(cursor)
     handler = _BY_LETTER.get(letter.upper())
@@ -217,6 +222,11 @@ def _m_word(cursor: Cursor) -> MWord:
     _need_value(cursor)
     number = value(cursor)
     arguments = groups(cursor)
+    if arguments and cursor.skip() in ("N", "n"):  # M17 [JUMPS=2] N20
+        begin = cursor.at
+        cursor.at += 1
+        label = Item("N", expression(cursor), cursor.span(begin))
+        arguments += (Group(((label,),), label.span),)
     return MWord(number, arguments, cursor.span(start, cursor.written_end()))
 
 
@@ -289,37 +299,21 @@ def _macro(cursor: Cursor) -> Macro | MacroDefinition:
 
 
 def _call(cursor: Cursor) -> Call:
-    """call = ( "L" | "LL" ) , sep , ( name | string | variable | "CYCLE" group | .. ) ;"""
-    start = cursor.at
-    found = cursor.match(_CALL)
+    found = call(cursor)
     if found is None:
         raise _unknown(cursor)
-    kind = found.group().upper()
-    cursor.skip()
-    special = cursor.match(_SPECIAL_CALL)
-    if special is not None:
-        return _special_call(cursor, f"{kind} {special.group().upper()}", start)
-    return Call(kind, _call_target(cursor, start), (), cursor.span(start))
+    return found
 
 
-def _special_call(cursor: Cursor, kind: str, start: int) -> Call:
-    cursor.skip()
-    arguments = (group(cursor),)
-    named = [item.value for item in arguments[0].items if item.key == "NAME"]
-    return Call(kind, named[0] if named else None, arguments, cursor.span(start))
-
-
-def _call_target(cursor: Cursor, start: int) -> Expression:
-    begin = cursor.at
-    if cursor.char == '"':
-        name = string(cursor)
-        return Macro(name.value, name.span)
-    if cursor.char in ("V", "v") and starts_target(cursor):
-        return target(cursor)
-    found = cursor.match(_FILE_NAME)
-    if found is None:
-        raise _no_value(cursor, start)
-    return Name(found.group(), cursor.span(begin))
+def _cycle_word(cursor: Cursor, letter: str, start: int) -> Word:
+    """cycleword = "@" , ( "X" | "Y" | "Z" | "I" | "J" | "K" | "S" ) , [ "=" ] , value ;"""
+    cursor.match(_EQUALS)
+    sign = cursor.skip() if cursor.char in ("+", "-") else ""
+    content = _value_after(cursor, start)
+    name, span = f"@{letter.upper()}", cursor.span(start)
+    if letter in "XYZxyz":
+        return AxisWord(name, content, sign, span)
+    return AddressWord(name, content, span)
 
 
 _BY_LETTER: dict[str, Callable[[Cursor], Word]] = {

@@ -25,6 +25,7 @@ FILE_NAMES = (
     ("tool", re.compile(r"(default_)?(werkz|tool).*\.lis")),
     ("clamp", re.compile(r"(default_)?(pzv|clamp).*\.lis")),
     ("axis", re.compile(r"(default_)?(achs|axis).*\.lis")),
+    ("external", re.compile(r"(default_)?ext_?var.*\.lis")),
 )
 """Kind of list by file name, upper and lower case alike."""
 

@@ -13,10 +13,11 @@ from pathlib import Path
 from ncscope.diagnostics import Diagnostic, Span
 from ncscope.lists import axes, files, kinematic_sets, records
 from ncscope.lists.axes import AxisRecord, ChannelAxes
+from ncscope.lists.external import external_variables
 from ncscope.lists.files import ListFile
 from ncscope.lists.kinematic_sets import KinematicSet
 from ncscope.lists.values import Reading, read_values
-from ncscope.machine import Axis, Machine
+from ncscope.machine import Axis, ExternalVariable, Machine
 
 Readings = tuple[Reading, ...]
 
@@ -65,7 +66,13 @@ def assemble(
     found = list(complaints)
     by_kind: dict[str, list[Reading]] = {kind: [] for kind in ("channel", "zero", "tool", "clamp")}
     axis_lists: list[tuple[ListFile, Readings]] = []
+    declared: dict[str, ExternalVariable] = {}
     for item in lists:
+        if item.list_kind == "external":
+            variables, problems = external_variables(item.document)
+            declared.update(variables)
+            found.extend(problems)
+            continue
         readings, problems = read_values(item.document, item.list_kind)
         found.extend(problems)
         found.extend(_overwritten(readings))
@@ -99,6 +106,7 @@ def assemble(
         settings,
         second,
         of_program,
+        external=declared,
     )
     every = [
         *(r for part in by_kind.values() for r in part),

@@ -6,6 +6,7 @@ degrees. Source: P-ZERO-00001 to -00004, P-CLMP-00001, P-TOOL-00003 to -00011, P
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -20,6 +21,10 @@ MM_PER_INCH = 25.4
 ROTATION_SEQUENCES = frozenset(
     ("XYZ", "XYX", "XZY", "XZX", "YXZ", "YXY", "YZX", "YZY", "ZXY", "ZXZ", "ZYX", "ZYZ")
 )
+
+CALLED_FILE = re.compile(r"(m6|g8[0-9]|g800)_prog_file(?:\[\])?")
+SUBPROGRAM_PATH = 2
+"""The bit of path[].type that stands for subprograms."""
 
 SETTINGS_OF_KEYS = {
     "kinematik_id": "default_kinematic_id",
@@ -45,6 +50,9 @@ SETTINGS_OF_KEYS = {
     "mittelpkt_faktor": "centre_shift_share",
     "max_radius_diff_circle": "radius_difference",
     "max_proz_radius_diff_circle": "radius_difference_share",
+    "cycle_changes_modal": "cycle_changes_stay",
+    "start_init_prog_file": "start_file",
+    "final_prog_file": "end_file",
 }
 """List keys of the channel settings and their names in `ChannelSettings`."""
 ECS_WORDS = {"ecs_axis": ("X", "Y"), "ecs_plane": ("XY", "ZX", "YZ")}
@@ -110,6 +118,7 @@ def channel_settings(
     """The settings of the channel list; the last entry of a setting counts."""
     values: dict[str, Any] = {}
     found: list[Diagnostic] = []
+    readings = tuple(readings)
     for reading in readings:
         name = SETTINGS_OF_KEYS.get(reading.entry.key.lower())
         if name is None or reading.value is None:
@@ -126,7 +135,35 @@ def channel_settings(
         values[name] = type(default)(reading.value)
         if name in SETTING_UNITS:
             values[name] /= SETTING_UNITS[name]
+    values["called_files"] = _called_files(readings)
+    values["search_paths"] = _search_paths(readings)
     return ChannelSettings(**values), tuple(found)
+
+
+def _called_files(readings: Iterable[Reading]) -> dict[str, str]:
+    """The file of each function that calls one, by its name in programs."""
+    files: dict[str, str] = {}
+    for reading in readings:
+        found = CALLED_FILE.fullmatch(reading.row.key)
+        if found is None or not isinstance(reading.value, str):
+            continue
+        name = found.group(1).upper()
+        files[f"G{800 + reading.indices[0]}" if name == "G800" else name] = reading.value
+    return files
+
+
+def _search_paths(readings: Iterable[Reading]) -> tuple[str, ...]:
+    """Folders of the kind "subprogram" by their priority; 0 and equal ones in list order."""
+    parts: dict[int, dict[str, Reading]] = defaultdict(dict)
+    for reading in readings:
+        if reading.row.key.startswith("path[].") and reading.value is not None:
+            parts[reading.indices[0]][reading.field] = reading
+    folders = [
+        (_number(part, "priority"), index, str(part["dir"].value))
+        for index, part in sorted(parts.items())
+        if "dir" in part and int(_number(part, "type")) & SUBPROGRAM_PATH
+    ]
+    return tuple(folder for _, _, folder in sorted(folders))
 
 
 def _offset_record(readings: Iterable[Reading]) -> OffsetRecord:

@@ -24,18 +24,22 @@ def load_program(path: str | Path) -> Program:
     return Program(Source(path.name, _content(path)))
 
 
-def subprogram_loader(folders: Iterable[str | Path]) -> Callable[[str], Source | None]:
+def subprogram_loader(
+    folders: Iterable[str | Path], search_paths: Iterable[str] = ()
+) -> Callable[[str], Source | None]:
     """What `Options.load` needs: finds subprogram files in these folders and below them only.
 
-    A name that leads out of the folders, also by a link, is not found.
+    search_paths: folders of the channel list, searched behind the folders themselves and relative
+    to them (P-CHAN-00401). A name that leads out of the folders, also by a link, is not found.
     """
     roots = [Path(folder).resolve() for folder in folders]
+    below = ["", *(path.replace("\\", "/") for path in search_paths)]
 
     def load(name: str) -> Source | None:
         relative = name.replace("\\", "/")
-        for root in roots:
+        for root, folder in ((r, f) for f in below for r in roots):
             try:
-                path = (root / relative).resolve()
+                path = (root / folder / relative).resolve()
                 if path.is_relative_to(root) and path.is_file():
                     return Source(path.relative_to(root).as_posix(), _content(path))
             except (OSError, ValueError):

@@ -8,6 +8,7 @@ from ncscope.channel import corner, manual
 from ncscope.channel.commands import (
     axes,
     contour,
+    cycles,
     effector_system,
     length_axis,
     length_correction,
@@ -45,6 +46,7 @@ COMMANDS = {
     **axes.COMMANDS,
     **messages.COMMANDS,
     **declared.COMMANDS,
+    **cycles.COMMANDS,
 }
 
 LAST = frozenset({"SUPPRESS OFFSETS", "TOOL ORI CS"})

@@ -6,16 +6,23 @@ from dataclasses import replace
 
 from ncscope.channel import user_variables
 from ncscope.channel.draft import Draft
-from ncscope.channel.evaluation import evaluate_value, indices
+from ncscope.channel.evaluation import evaluate_number, evaluate_value, indices
 from ncscope.language import tree
 
 
 def declare(draft: Draft, item: tree.Declaration) -> None:
     """One line between #VAR and #ENDVAR."""
-    if not user_variables.is_user(item.target):
-        draft.fail("20908", item.target.span, "only P, V.P, V.S and V.L can be declared")
+    external = isinstance(item.target, tree.Variable) and item.target.parts[1].name.upper() == "E"
+    if external or not user_variables.is_user(item.target):
+        draft.fail("20908", item.target.span, "only P, V.P, V.S, V.L and V.CYC can be declared")
     values = tuple(evaluate_value(draft, e) for e in item.initial)
-    user_variables.declare(draft, item, indices(draft, item.target), values)
+    length = user_variables.LONGEST_STRING
+    if item.length is not None:
+        length = round(evaluate_number(draft, item.length))
+        if not 0 <= length <= user_variables.LONGEST_STRING:
+            what = f"a STRING has 0 to {user_variables.LONGEST_STRING} characters"
+            draft.fail("20906", item.span, what)
+    user_variables.declare(draft, item, indices(draft, item.target), values, length)
 
 
 def area(draft: Draft, command: tree.HashCommand) -> None:

@@ -34,12 +34,13 @@ def show(draft: Draft, command: tree.HashCommand) -> None:
 
 
 def file_name(draft: Draft, command: tree.HashCommand) -> None:
-    """#FILE NAME [MSG=file]: where #MSG SAVE writes from now on."""
+    """#FILE NAME [MSG=file M6=file G80=file]: where #MSG SAVE writes, and what M6 and G80 call."""
     items = [item for group in command.groups for item in group.items]
     if not items:
         draft.fail("20480", command.span, "#FILE NAME needs a name, for example [MSG=log.txt]")
     for item in items:
-        if item.key != "MSG":
+        called = re.fullmatch(r"M6|G8[0-9]|G8[0-3][0-9]", item.key or "")
+        if item.key != "MSG" and called is None:
             what = f"#FILE NAME [{item.key or ''}=..]"
             draft.fail("N2001", item.span, f"{what} is not supported yet")
         name = item.value.text if isinstance(item.value, tree.Name) else None
@@ -47,7 +48,11 @@ def file_name(draft: Draft, command: tree.HashCommand) -> None:
             name = str(evaluate_value(draft, item.value))
         if not name:
             draft.fail("N1005", item.span, "a file name is missing")
-        draft.state = replace(draft.state, message_file=name)
+        if called is None:
+            draft.state = replace(draft.state, message_file=name)
+        else:
+            files = {**draft.state.called_files, called.group(): name}
+            draft.state = replace(draft.state, called_files=files)
 
 
 def _text(draft: Draft, command: tree.HashCommand) -> str:
