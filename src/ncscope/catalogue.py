@@ -256,6 +256,9 @@ CATALOGUE: dict[str, Entry] = {
     "N2044": Entry("warning", "Rows of probe answers or jog increments were not used."),
     "N2050": Entry("error", "#ECS needs the tool direction of an active transformation."),
     "N2051": Entry("error", "A system of #CS ON lies between the stack and the machine system."),
+    "N2090": Entry("warning", "The program gave a warning of its own (#ERROR with RC=0)."),
+    "N2091": Entry("error", "The program stopped with an error of its own (#ERROR)."),
+    "N2092": Entry("warning", "A requested axis is in the channel already."),
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),

@@ -339,6 +339,8 @@ def _main_axes(values: Array) -> Array:
 def _transformed(points: Array, rotation: Array, shift: Array) -> Array:
     """rotation @ point + shift, summed in one order so that one row and a million agree."""
     n = points.shape[-1]
+    if n == 0:  # all axes have left the channel
+        return points
     rows = [sum(rotation[i, j] * points[..., j] for j in range(n)) + shift[i] for i in range(n)]
     return np.stack(rows, axis=-1)
 

@@ -10,8 +10,11 @@ from ncscope.channel.commands import (
     contour,
     cycles,
     effector_system,
+    errors,
+    exchange,
     length_axis,
     length_correction,
+    machine_data,
     machine_system,
     measuring_mode,
     messages,
@@ -47,6 +50,9 @@ COMMANDS = {
     **messages.COMMANDS,
     **declared.COMMANDS,
     **cycles.COMMANDS,
+    **exchange.COMMANDS,
+    **machine_data.COMMANDS,
+    **errors.COMMANDS,
 }
 
 LAST = frozenset({"SUPPRESS OFFSETS", "TOOL ORI CS"})

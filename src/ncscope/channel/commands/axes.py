@@ -20,6 +20,21 @@ AXIS_LETTERS = "ABCQUVWXYZ"
 
 def set_ax(draft: Draft, command: tree.HashCommand) -> None:
     """#SET AX [X,1,0] [Y,2,1]: these axes are the channel now; index 0 to 2 are the main axes."""
+    refuse_exchange(draft, command)
+    groups = [g for g in command.groups if not _is_option(draft, g)]
+    if not groups:
+        draft.fail("20480", command.span, "#SET AX needs axes", _FORM)
+    placed: dict[int, Axis] = {}
+    for group in groups:
+        index, axis = axis_of_group(draft, group)
+        check_unique(draft, group, placed, index, axis)
+        placed[index] = axis
+    require_no_gap(draft, command, placed)
+    draft.state = with_axes(draft.state, tuple(placed[i] for i in sorted(placed)))
+
+
+def refuse_exchange(draft: Draft, command: tree.HashCommand) -> None:
+    """Fails while a transformation or #MCS is active."""
     chain = draft.state.coordinates
     if any(s is not None for s in (chain.kinematics, chain.program_step, chain.length_step)):
         draft.fail(
@@ -29,15 +44,12 @@ def set_ax(draft: Draft, command: tree.HashCommand) -> None:
             "switch it off first (#TRAFO OFF)",
         )
     if draft.state.suspended is not None:
-        draft.fail("N2001", command.span, "#SET AX while #MCS is active is not supported yet")
-    groups = [g for g in command.groups if not _is_option(draft, g)]
-    if not groups:
-        draft.fail("20480", command.span, "#SET AX needs axes", _FORM)
-    placed: dict[int, Axis] = {}
-    for group in groups:
-        index, axis = _axis(draft, group)
-        _check_unique(draft, group, placed, index, axis)
-        placed[index] = axis
+        what = f"#{command.name} while #MCS is active is not supported yet"
+        draft.fail("N2001", command.span, what)
+
+
+def require_no_gap(draft: Draft, command: tree.HashCommand, placed: Mapping[int, Axis]) -> None:
+    """Fails for a channel without one of its first axes, and below an active system."""
     if sorted(placed) != list(range(len(placed))):
         draft.fail(
             "N1005",
@@ -52,7 +64,6 @@ def set_ax(draft: Draft, command: tree.HashCommand) -> None:
             "an active coordinate system needs three main axes",
             "switch it off first (#CS OFF)",
         )
-    draft.state = _with_axes(draft.state, tuple(placed[i] for i in sorted(placed)))
 
 
 _FORM = "write [name, logical number, index], for example #SET AX [X,1,0] [Y,2,1] [Z,3,2]"
@@ -63,12 +74,13 @@ def _is_option(draft: Draft, group: tree.Group) -> bool:
     return len(group.cells) == 1 and all(isinstance(i.value, tree.Name) for i in group.items)
 
 
-def _axis(draft: Draft, group: tree.Group) -> tuple[int, Axis]:
+def axis_of_group(draft: Draft, group: tree.Group) -> tuple[int, Axis]:
+    """Channel index and axis of `[name, logical number, index]`."""
     places = group.places
     if len(places) < 3:
         draft.fail("21251", group.span, "an axis needs its name, number and index", _FORM)
     if len(places) > 3:
-        draft.warn("N2006", group.span, "the take-over option of #SET AX is ignored")
+        draft.warn("N2006", group.span, "the take-over option of the axis is ignored")
     name, number, index = places[:3]
     if not isinstance(name, tree.Name) or name.text[:1] not in AXIS_LETTERS:
         draft.fail("20797", group.span, "an axis name begins with A B C Q U V W X Y or Z", _FORM)
@@ -94,9 +106,10 @@ def _known(draft: Draft, group: tree.Group, name: str, number: int) -> Axis:
     return Axis(name, number, rotary=is_rotary_name(name), assumed=True)
 
 
-def _check_unique(
-    draft: Draft, group: tree.Group, placed: dict[int, Axis], index: int, axis: Axis
+def check_unique(
+    draft: Draft, group: tree.Group, placed: Mapping[int, Axis], index: int, axis: Axis
 ) -> None:
+    """Fails for an index, name or number that stands in the command already."""
     if index in placed:
         draft.fail("21257", group.span, f"index {index} is used twice")
     if any(a.name == axis.name for a in placed.values()):
@@ -105,7 +118,7 @@ def _check_unique(
         draft.fail("20888", group.span, f"axis number {axis.number} is used twice")
 
 
-def _with_axes(state: State, axes: tuple[Axis, ...]) -> State:
+def with_axes(state: State, axes: tuple[Axis, ...]) -> State:
     """Another channel configuration. An axis that stays keeps its position and its offsets."""
     old = {axis.number: i for i, axis in enumerate(state.axes)}
     parked = {

@@ -11,6 +11,9 @@ from ncscope.language import tree
 
 FORMAT_ITEM = re.compile(r"%(.?)")
 MAX_VALUES = 10
+SAVE_MODES = frozenset(("EXCLUSIVE", "CONTINUE"))
+SHOW_MODES = frozenset(("SYN", "SYN_ACK", "ACK"))
+RECEIVERS = frozenset(("ISG_DIAG_BED", "DIAG", "HMI", "PLC", "EVENT_LOGGER"))
 MAX_TEXT = 512
 
 
@@ -20,7 +23,7 @@ def save(draft: Draft, command: tree.HashCommand) -> None:
     EXCLUSIVE writes the text alone; without it the text stands in quotes. The time stamp of the
     control is left out: the same program writes the same file.
     """
-    words = {m.upper() for m in command.modifiers}
+    words = _modes(draft, command, SAVE_MODES)
     text = _text(draft, command)
     if "EXCLUSIVE" not in words:
         text = f'"{text}"'
@@ -29,8 +32,32 @@ def save(draft: Draft, command: tree.HashCommand) -> None:
 
 
 def show(draft: Draft, command: tree.HashCommand) -> None:
-    """#MSG ["text"]: a message to a display."""
+    """#MSG [SYN] [receiver] ["text", value ..]: a message to a display or to the PLC."""
+    _modes(draft, command, SHOW_MODES)
+    if len(command.groups) == 2:
+        _check_receiver(draft, command.groups[0])
+    elif len(command.groups) > 2:
+        draft.fail("N1005", command.groups[2].span, "#MSG has a receiver and a text", _FORM)
     draft.messages.append(Message(None, _text(draft, command)))
+
+
+_FORM = 'write #MSG ["text"], or with a receiver #MSG [HMI] ["text"]'
+
+
+def _modes(draft: Draft, command: tree.HashCommand, known: frozenset[str]) -> set[str]:
+    words = {m.upper() for m in command.modifiers}
+    for word in sorted(words - known):
+        hint = f"known are {', '.join(sorted(known))}"
+        draft.fail("N1005", command.span, f"{word} is unknown in #{command.name}", hint)
+    return words
+
+
+def _check_receiver(draft: Draft, group: tree.Group) -> None:
+    for item in group.items:
+        name = item.value.text.upper() if isinstance(item.value, tree.Name) else ""
+        if name not in RECEIVERS:
+            hint = f"receivers are {', '.join(sorted(RECEIVERS))}"
+            draft.fail("N1005", item.span, "the receiver of the message is unknown", hint)
 
 
 def file_name(draft: Draft, command: tree.HashCommand) -> None:
@@ -66,6 +93,9 @@ def _text(draft: Draft, command: tree.HashCommand) -> str:
         draft.fail("20721", first.span, "a message begins with its text in quotes")
     if len(template) > MAX_TEXT:
         draft.fail("20723", first.span, f"the text is longer than {MAX_TEXT} characters")
+    if len(rest) > MAX_VALUES:
+        what = f"a message has at most {MAX_VALUES} values"
+        draft.fail("20724", command.groups[-1].span, what)
     values = []
     for place in rest:
         if place is None:
