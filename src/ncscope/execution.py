@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING
 
 from ncscope.channel.block import Step, execute
 from ncscope.channel.draft import Message
-from ncscope.channel.flow import Walker, open_warnings
+from ncscope.channel.flow import Walker, open_warnings, too_many
 from ncscope.channel.given import GivenRows
+from ncscope.channel.loop_lane import LoopLane, Visited
 from ncscope.channel.start import start_state
 from ncscope.channel.state import CallRequest, Return, Running, State
-from ncscope.channel.subprograms import Load, Passage, call, leave, nesting_warning
+from ncscope.channel.subprograms import Load, Passage, call, leave, nesting_warning, return_in_main
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.inspection import inspect
 from ncscope.language import BlockReader, tree
@@ -141,7 +142,7 @@ def _stream(loop: _Loop, progress: Progress | None) -> None:
             break
         loop.take(block, found)
         if loop.returned is not None:
-            loop.add([_return_in_main(loop.returned.span)])
+            loop.add([return_in_main(loop.returned.span)])
         elif loop.calls and not loop.log.stop:
             _run_files(loop, loop.calls)
         if progress is not None:
@@ -183,6 +184,10 @@ def _drive(loop: _Loop, walker: Walker, progress: Progress | None) -> None:
             loop.accept(leave(walker, loop.state))
             continue
         loop.blamed = walker.blamed
+        if loop.take_loop(walker):
+            if progress is not None:
+                progress(reached)
+            continue
         if entry.keyword and not entry.block.words:
             loop.meet(entry.block, entry.found)
         else:
@@ -200,7 +205,7 @@ def _go_on(loop: _Loop, walker: Walker) -> None:
     """The jump, calls or return behind the words of a block."""
     order, calls = loop.returned, loop.calls
     if order is not None and not walker.calls:
-        loop.add([_return_in_main(order.span)])
+        loop.add([return_in_main(order.span)])
         return
     if order is None and not loop.ended:
         loop.state, found = walker.step(loop.state)
@@ -233,6 +238,7 @@ class _Loop:
         self.calls: tuple[CallRequest, ...] = ()
         self.blamed: Callable[[], Span | None] | None = None
         self.scanner: Scanner | None = None
+        self.loops = LoopLane() if options.bulk is not False else None
         long = len(source) >= BULK_FROM
         self.bulk = long if options.bulk is None else options.bulk
 
@@ -294,12 +300,36 @@ class _Loop:
             self.count += len(stretch)
             reader.skip_to(int(rows.stops[len(stretch) - 1]))
 
+    def take_loop(self, walker: Walker) -> bool:
+        """Blocks that are executed again and again, in the loop lane; whether there were any."""
+        if self.transitions.waiting is not None:
+            return False
+        limit = (self.options.max_blocks or MOST_BLOCKS) - self.count
+        piece = self.loops.advance(walker, self.state, limit) if self.loops else None
+        if piece is None:
+            return False
+        if piece.stretch is not None:
+            self.recorder.extend(piece.stretch, self.state.position.program)
+        self.count += piece.count
+        self.state = piece.state
+        if walker.layout.source.name == self.recorder.file:
+            self._visit(walker, piece.visits)
+        return True
+
+    def _visit(self, walker: Walker, visits: Iterable[Visited]) -> None:
+        state = self.state
+        for place in visits:
+            line = walker.layout.entries[place.at].block.span.line
+            self.recorder.visit(
+                line, place.block, state.coordinates, state.axis_names, place.program, place.axes
+            )
+
     def _counted(self, span: Span) -> bool:
         self.count += 1
         limit = self.options.max_blocks or (MOST_BLOCKS if self.blamed is not None else 0)
         if limit and self.count > limit:
             blamed = self.blamed() if self.blamed is not None else None
-            self.add([_too_many(limit, span, blamed)])
+            self.add([too_many(limit, span, blamed)])
             return False
         return True
 
@@ -345,25 +375,6 @@ def _record(
             state.position.axes,
         )
     return found
-
-
-def _too_many(limit: int, span: Span, loop: Span | None) -> Diagnostic:
-    if loop is not None:
-        message = f"more than {limit} blocks were executed: the loop in line {loop.line} goes on"
-        notes = (("the loop", loop),)
-        hint = "check how the loop ends, or raise --max-blocks"
-        return diagnostic("N4001", span, message, hint, notes=notes)
-    return diagnostic(
-        "N4001",
-        span,
-        f"the program has more than {limit} blocks",
-        "raise --max-blocks, or leave it out for no limit",
-    )
-
-
-def _return_in_main(span: Span) -> Diagnostic:
-    hint = "the main program ends with M30"
-    return diagnostic("20376", span, "M17 and M29 return from a subprogram", hint)
 
 
 def _unused(given: GivenRows | None) -> list[Diagnostic]:

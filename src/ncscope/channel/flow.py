@@ -273,3 +273,18 @@ def _label(draft: Draft, control: tree.Control) -> str:
     if isinstance(control.target, tree.Number):
         return f"N{round(control.target.value)}"
     return f"N{round(evaluate_number(draft, control.values[-1]))}"
+
+
+def too_many(limit: int, span: Span, loop: Span | None) -> Diagnostic:
+    """N4001, with the loop that goes on."""
+    if loop is not None:
+        message = f"more than {limit} blocks were executed: the loop in line {loop.line} goes on"
+        notes = (("the loop", loop),)
+        hint = "check how the loop ends, or raise --max-blocks"
+        return diagnostic("N4001", span, message, hint, notes=notes)
+    return diagnostic(
+        "N4001",
+        span,
+        f"the program has more than {limit} blocks",
+        "raise --max-blocks, or leave it out for no limit",
+    )

@@ -280,3 +280,9 @@ def _marked(draft: Draft, aim: Layout, level: Level, request: CallRequest, mark:
 def nesting_warning(span: Span) -> Diagnostic:
     """20377 for M30 inside a subprogram."""
     return diagnostic("20377", span, "the program ends inside a subprogram")
+
+
+def return_in_main(span: Span) -> Diagnostic:
+    """20376 for M17 or M29 in the main program."""
+    hint = "the main program ends with M30"
+    return diagnostic("20376", span, "M17 and M29 return from a subprogram", hint)

@@ -150,7 +150,7 @@ def _binary(node: Binary) -> Compiled:
     if node.operator in _ON_STRINGS and not _has_number_literal(node):
         return _binary_on_values(node)
     left, right = _compile_number(node.left), _compile_number(node.right)
-    apply, span = _ARITHMETIC[node.operator], node.span
+    apply, span = ARITHMETIC[node.operator], node.span
 
     def run(environment: Environment) -> float:
         return _checked(apply, (left(environment), right(environment)), span)
@@ -165,7 +165,7 @@ def _has_number_literal(node: Binary) -> bool:
 def _binary_on_values(node: Binary) -> Compiled:
     """`+` and the comparisons take two strings too; a string beside a number names a macro."""
     left, right, span = _compile(node.left), _compile(node.right), node.span
-    on_numbers, on_strings = _ARITHMETIC[node.operator], _ON_STRINGS[node.operator]
+    on_numbers, on_strings = ARITHMETIC[node.operator], _ON_STRINGS[node.operator]
 
     def run(environment: Environment) -> Value:
         a, b = left(environment), right(environment)
@@ -313,7 +313,7 @@ def _remainder(dividend: float, divisor: float) -> float:
     return math.fmod(dividend, divisor)
 
 
-_ARITHMETIC: dict[str, Callable[[float, float], float]] = {
+ARITHMETIC: dict[str, Callable[[float, float], float]] = {
     "+": lambda a, b: a + b,
     "-": lambda a, b: a - b,
     "*": lambda a, b: a * b,

@@ -40,12 +40,18 @@ def sine(angle: float) -> float:
     (0.0, 0.5, -1.0)
     """
     turn = math.fmod(angle, 360.0)
-    if turn < 0:
+    if turn < 0.0:
         turn += 360.0
-    exact = {0.0: 0.0, 30.0: 0.5, 90.0: 1.0, 150.0: 0.5, 180.0: 0.0}
-    if turn >= 180.0:
-        return -sine(turn - 180.0) if turn != 180.0 else 0.0
-    return exact.get(turn, math.sin(math.radians(turn)))
+    if turn < 180.0:
+        exact = _EXACT.get(turn)
+        return math.sin(math.radians(turn)) if exact is None else exact
+    turn -= 180.0
+    exact = _EXACT.get(turn)
+    value = math.sin(math.radians(turn)) if exact is None else exact
+    return -value if value else 0.0
+
+
+_EXACT = {0.0: 0.0, 30.0: 0.5, 90.0: 1.0, 150.0: 0.5, 180.0: 0.0}
 
 
 def cosine(angle: float) -> float:
