@@ -1,9 +1,10 @@
 """What a run demands of the machine: travel of every axis, its limits, the pole, turned-over axes.
 
 Enters: a `Trajectory`. Leaves: an `Inspection` with the numbers, and its warnings.
-Software limits hold for axis positions, never for the tool tip (P-AXIS-00177, P-AXIS-00178); they
-are compared at the ends of blocks. A warning does not end the run: what comes behind it is shown
-too, although the control would stop the axes there (P-AXIS-00554, P-CHAN-00147).
+Software limits hold for axis positions, never for the tool tip (P-AXIS-00177, P-AXIS-00178). Every
+row is compared: the ends of blocks, and in a sampled run the points between them. A warning does
+not end the run: what comes behind it is shown too, although the control would stop the axes there
+(P-AXIS-00554, P-CHAN-00147).
 """
 
 from __future__ import annotations
@@ -87,8 +88,14 @@ class Inspection:
     wraps: tuple[Wrap, ...]
 
     @cached_property
+    def move(self) -> Rows:
+        """(rows,) the move that each row belongs to: several rows in a sampled run."""
+        end = self.result.end
+        return np.cumsum(end) - end
+
+    @cached_property
     def pole_distance(self) -> Array:
-        """(moves,) degrees between the tool and its singular direction at the end of each block;
+        """(rows,) degrees between the tool and its singular direction at the end of each block;
         NaN without a kinematics that has one."""
         parts = [np.full(len(s), np.nan) for s in self.result.stretches]
         for s, out in zip(self.result.stretches, parts, strict=True):
@@ -126,8 +133,9 @@ class Inspection:
                     f"axis {axis.name} goes to {_number(at)} {unit}, beyond its software limit "
                     f"{_number(limit)}"
                 )
-                if len(rows) > 1:
-                    message += f"; {len(rows)} blocks are beyond it, at most {_number(worst)}"
+                count = len(np.unique(self.move[rows]))
+                if count > 1:
+                    message += f"; {count} blocks are beyond it, at most {_number(worst)}"
                 hint = f"the control stops the axis here; the limit is {key}"
                 yield int(rows[0]), "N4101", message, hint
 

@@ -16,6 +16,7 @@ from ncscope.cli.check import check_command
 from ncscope.cli.convert import convert_command
 from ncscope.cli.explain import explain_command
 from ncscope.cli.kin import kin_app
+from ncscope.cli.plot import plot_command
 from ncscope.cli.run import run_command
 from ncscope.cli.screen import announce_compiling
 from ncscope.cli.where import where_command
@@ -34,6 +35,7 @@ app.command("check")(check_command)
 app.command("convert")(convert_command)
 app.add_typer(kin_app, name="kin")
 app.command("workbench")(workbench_command)
+app.command("plot")(plot_command)
 
 
 def _version(wanted: bool) -> None:

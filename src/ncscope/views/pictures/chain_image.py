@@ -1,0 +1,174 @@
+"""The chain of a machine as png and svg: four views, and the axes in words from workpiece to tool.
+
+Enters: a `ChainScene`. Leaves: the bytes of a file.
+"""
+
+from __future__ import annotations
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyBboxPatch
+
+from ncscope.frames import Array
+from ncscope.views.pictures.chain import Box, ChainScene, Part
+from ncscope.views.pictures.image import STYLE, arrow, frame, picture_bytes
+from ncscope.views.pictures.labels import Label, draw_labels, plain
+from ncscope.views.pictures.projection import VIEWS, View
+
+COLOURS = {
+    "base": "#9a9a9a",
+    "linear": "#1f5f9e",
+    "rotary": "#d9730d",
+    "flange": "#2e7d32",
+    "tool": "#111111",
+}
+DOUBT = "#c62828"
+WIDTHS = {"base": 0.7, "linear": 2.2, "rotary": 1.5, "flange": 1.6, "tool": 3.0}
+FLAT = 0.03
+"""An arrow shorter than this part of the size is seen from its end and drawn as a symbol."""
+
+
+def chain_image(scene: ChainScene, title: str, note: str, form: str) -> bytes:
+    """form: png or svg. note: one line under the title."""
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(11.0, 10.4))
+        figure.suptitle(plain(title), y=0.985, parse_math=False)
+        figure.text(
+            0.5, 0.955, plain(note), ha="center", fontsize=8, color="#555555", parse_math=False
+        )
+        grid = figure.add_gridspec(
+            2,
+            1,
+            height_ratios=[8.2, 1.25],
+            left=0.06,
+            right=0.98,
+            top=0.93,
+            bottom=0.015,
+            hspace=0.09,
+        )
+        views = grid[0].subgridspec(2, 2, wspace=0.12, hspace=0.17)
+        for place, view in enumerate(VIEWS):
+            _draw_view(figure.add_subplot(views[place // 2, place % 2]), view, scene)
+        _draw_boxes(figure.add_subplot(grid[1]), scene.boxes)
+        return picture_bytes(figure, form)
+
+
+def _draw_view(axes: Axes, view: View, scene: ChainScene) -> None:
+    labels: list[Label] = []
+    for part in scene.parts:
+        labels += _draw_part(axes, view, part, scene.size)
+    frame(axes, view)
+    axes.margins(0.12)
+    draw_labels(axes, labels)
+
+
+def _draw_part(axes: Axes, view: View, part: Part, size: float) -> list[Label]:
+    colour, name = COLOURS[part.kind], f"{view.name}-{part.id}"
+    spot: Array | None = None
+    if part.point is not None:
+        spot = view.flat(part.point)
+        (mark,) = axes.plot(
+            *spot, "o" if part.kind == "rotary" else "D", color=colour, markersize=5, zorder=6
+        )
+        mark.set_gid(f"{name}-point")
+    if len(part.line):
+        start, spot = view.flat(part.line[0]), view.flat(part.line[-1])
+        length = float(np.linalg.norm(spot - start))
+        if length < FLAT * size:
+            _end_on(axes, spot, float((part.line[-1] - part.line[0]) @ view.toward), colour, name)
+        elif part.arrow and part.kind != "base":
+            arrow(axes, start, spot, colour, WIDTHS[part.kind], name)
+        else:
+            (line,) = axes.plot(
+                *np.array([start, spot]).T,
+                color=colour,
+                linewidth=WIDTHS[part.kind],
+                solid_capstyle="butt",
+            )
+            line.set_gid(name)
+    if part.turn is not None:
+        _draw_turn(axes, view.flat(part.turn), colour, f"{name}-turn")
+    return [] if spot is None or not part.label else [Label(spot, part.label, colour)]
+
+
+def _end_on(axes: Axes, at: Array, toward: float, colour: str, name: str) -> None:
+    """A circle with a dot for an arrow to the eye, with a cross for one away from it."""
+    ring, inner = axes.plot(*at, "o", *at, "." if toward > 0 else "x", color=colour, zorder=7)
+    ring.set(markersize=11, markerfacecolor="white", markeredgewidth=1.4)
+    ring.set_gid(f"{name}-{'toward' if toward > 0 else 'away'}")
+    inner.set(markersize=5)
+
+
+def _draw_turn(axes: Axes, points: Array, colour: str, name: str) -> None:
+    (line,) = axes.plot(*points[:-2].T, color=colour, linewidth=1.1)
+    line.set_gid(name)
+    if np.ptp(points, axis=0).min() > 0.02 * np.ptp(points, axis=0).max():
+        arrow(axes, points[-4], points[-1], colour, 1.1, f"{name}-head")
+
+
+def _draw_boxes(axes: Axes, boxes: tuple[Box, ...]) -> None:
+    axes.set_axis_off()
+    axes.set_gid("chain")
+    count = len(boxes) + 2
+    axes.set_xlim(0, count)
+    axes.set_ylim(0, 1)
+    _box(axes, 0, "workpiece", ["", "", "", "", "chain begins"], COLOURS["flange"])
+    for place, box in enumerate(boxes, start=1):
+        lines = [
+            box.kind,
+            box.direction,
+            f"at {box.point}" if box.point else "",
+            box.remark,
+            box.side,
+        ]
+        colour = DOUBT if box.doubtful else COLOURS[box.kind]
+        _box(axes, place, box.name, lines, colour)
+    _box(axes, count - 1, "tool", ["", "", "", "", "chain ends"], COLOURS["tool"])
+
+
+def _box(axes: Axes, place: int, name: str, lines: list[str], colour: str) -> None:
+    patch = FancyBboxPatch(
+        (place + 0.05, 0.04),
+        0.84,
+        0.9,
+        boxstyle="round,pad=0,rounding_size=0.05",
+        facecolor="white",
+        edgecolor=colour,
+        linewidth=1.3,
+    )
+    patch.set_gid(f"box-{place}")
+    axes.add_patch(patch)
+    middle = place + 0.47
+    axes.text(
+        middle,
+        0.83,
+        plain(name),
+        ha="center",
+        va="center",
+        fontsize=10,
+        color=colour,
+        weight="bold",
+        parse_math=False,
+    )
+    for row, line in enumerate(lines):
+        axes.text(
+            middle,
+            0.66 - 0.135 * row,
+            plain(line),
+            ha="center",
+            va="center",
+            fontsize=6.8,
+            color=colour if row >= 3 else "#333333",
+            parse_math=False,
+        )
+    if place:
+        arrow(
+            axes,
+            np.array([place - 0.1, 0.5]),
+            np.array([place + 0.05, 0.5]),
+            "#888888",
+            1.0,
+            f"link-{place}",
+        )
