@@ -41,7 +41,8 @@ SAME_DIRECTION = 1e-4
 class Travel:
     """Where one axis went: mm or degrees, and the rows of the trajectory where it was there.
 
-    beyond: for each limit that was crossed, the rows beyond it.
+    below, above: the rows of moves that go beyond a limit, in order. first_below, first_above:
+    how far the first of them goes; NaN without. An arc goes as far as it bulges.
     """
 
     axis: Axis
@@ -51,6 +52,8 @@ class Travel:
     high_row: int
     below: Rows
     above: Rows
+    first_below: float = np.nan
+    first_above: float = np.nan
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +107,19 @@ class Inspection:
                 out[:] = pole.distance(s.acs[:, pole.second])
         return np.concatenate(parts) if parts else np.empty(0)
 
+    @property
+    def nearest_to_pole(self) -> tuple[float, int] | None:
+        """Smallest distance to the singular direction and the row of the move that has it, at its
+        start or end; None without a kinematics that has a pole."""
+        found = [
+            (float(distance.min()), row + max(0, int(distance.argmin()) - 1))
+            for row, s in _stretches(self.result)
+            for pole in [_pole(s)]
+            if pole is not None
+            for distance in [pole.distance(_with_start(s, pole.second))]
+        ]
+        return min(found, default=None)
+
     def diagnostics(self, sources: Mapping[str, Source] | None = None) -> tuple[Diagnostic, ...]:
         """Warnings: one for each limit of an axis and for each kind of event, with its number.
 
@@ -121,14 +137,15 @@ class Inspection:
             axis, limits = travel.axis, travel.axis.limits
             if limits is None:
                 continue
-            for rows, limit, worst, key in (
-                (travel.below, limits[0], travel.low, "kenngr.swe_neg (P-AXIS-00177)"),
-                (travel.above, limits[1], travel.high, "kenngr.swe_pos (P-AXIS-00178)"),
+            low = (travel.below, limits[0], travel.first_below, travel.low)
+            high = (travel.above, limits[1], travel.first_above, travel.high)
+            for (rows, limit, at, worst), key in (
+                (low, "kenngr.swe_neg (P-AXIS-00177)"),
+                (high, "kenngr.swe_pos (P-AXIS-00178)"),
             ):
                 if len(rows) == 0:
                     continue
                 unit = "degrees" if axis.rotary else "mm"
-                at = self._value(axis.name, int(rows[0]))
                 message = (
                     f"axis {axis.name} goes to {_number(at)} {unit}, beyond its software limit "
                     f"{_number(limit)}"
@@ -169,12 +186,6 @@ class Inspection:
             hint = "a modulo axis (P-AXIS-00015) would take the short way"
             yield first.row, "N4103", message, hint
 
-    def _value(self, axis: str, row: int) -> float:
-        for first, s in _stretches(self.result):
-            if row < first + len(s):
-                return float(s.acs[row - first, s.axes.index(axis)])
-        raise IndexError(row)
-
 
 def inspect(result: Trajectory) -> Inspection:
     """Travel, limits, swings at the pole and turned-over axes of a run."""
@@ -184,7 +195,7 @@ def inspect(result: Trajectory) -> Inspection:
     for row, s in _stretches(result):
         axes = _axes_at(result, row, s)
         for column, axis in enumerate(axes):
-            seen = _travel(axis, s.acs[:, column], row)
+            seen = _travel(axis, *_positions(s, column), row)
             travel[axis] = _joined(travel[axis], seen) if axis in travel else seen
         pole = _pole(s)
         if pole is not None:
@@ -222,23 +233,51 @@ def _axes_at(result: Trajectory, row: int, s: Stretch) -> tuple[Axis, ...]:
     return tuple(Axis(name, index + 1) for index, name in enumerate(s.axes))
 
 
-def _travel(axis: Axis, values: Array, row: int) -> Travel:
+def _positions(s: Stretch, column: int) -> tuple[Array, Rows]:
+    """Positions of one axis with the rows of the stretch that they belong to, arcs included."""
+    values, rows = s.acs[:, column], np.arange(len(s))
+    if s.turning is None:
+        return values, rows
+    ends = np.flatnonzero(s.end)
+    return (
+        np.append(values, s.turning.acs[:, column]),
+        np.append(rows, ends[s.turning.row]),
+    )
+
+
+def _travel(axis: Axis, values: Array, rows: Rows, row: int) -> Travel:
     lowest, highest = int(values.argmin()), int(values.argmax())
     low, high = float(values[lowest]), float(values[highest])
-    below = above = np.empty(0, dtype=np.int64)
+    ends = (row + int(rows[lowest]), row + int(rows[highest]))
+    below = above = (np.empty(0, dtype=np.int64), np.nan)
     if axis.limits is not None:
         if low < axis.limits[0] - TOLERANCE:
-            below = np.flatnonzero(values < axis.limits[0] - TOLERANCE) + row
+            below = _beyond(values < axis.limits[0] - TOLERANCE, values, rows + row)
         if high > axis.limits[1] + TOLERANCE:
-            above = np.flatnonzero(values > axis.limits[1] + TOLERANCE) + row
-    return Travel(axis, low, high, row + lowest, row + highest, below, above)
+            above = _beyond(values > axis.limits[1] + TOLERANCE, values, rows + row)
+    return Travel(axis, low, high, *ends, below[0], above[0], below[1], above[1])
+
+
+def _beyond(there: NDArray[np.bool_], values: Array, rows: Rows) -> tuple[Rows, float]:
+    """The rows beyond a limit in order, and the position at the first of them."""
+    found = np.flatnonzero(there)
+    order = found[np.argsort(rows[found], kind="stable")]
+    return rows[order], float(values[order[0]])
 
 
 def _joined(a: Travel, b: Travel) -> Travel:
     low, high = (a if a.low <= b.low else b), (a if a.high >= b.high else b)
-    below = np.concatenate([a.below, b.below]) if len(b.below) else a.below
-    above = np.concatenate([a.above, b.above]) if len(b.above) else a.above
-    return Travel(a.axis, low.low, high.high, low.low_row, high.high_row, below, above)
+    return Travel(
+        a.axis,
+        low.low,
+        high.high,
+        low.low_row,
+        high.high_row,
+        np.concatenate([a.below, b.below]),
+        np.concatenate([a.above, b.above]),
+        a.first_below if len(a.below) else b.first_below,
+        a.first_above if len(a.above) else b.first_above,
+    )
 
 
 def _pole(s: Stretch) -> Pole | None:
@@ -253,7 +292,7 @@ def _swings(pole: Pole, s: Stretch, row: int) -> list[Swing]:
     turn = np.diff(s.acs[:, pole.first], prepend=s.start[pole.first])
     if not pole.model.rtcp:
         turn = _short_way(turn)
-    near = pole.distance(np.append(s.start[pole.second], s.acs[:, pole.second])) < NEAR_POLE
+    near = pole.distance(_with_start(s, pole.second)) < NEAR_POLE
     suspect = near[1:] | near[:-1] | (np.abs(turn) >= SMALLEST_SWING)
     moves = np.flatnonzero(suspect & (turn != 0.0))
     if len(moves) == 0:
@@ -286,10 +325,14 @@ def _wraps(s: Stretch, axes: tuple[Axis, ...], row: int) -> list[Wrap]:
         return []
     found = []
     for column in active.model.chain.rotary:
-        values = np.append(s.start[column], s.acs[:, column])
+        values = _with_start(s, column)
         for i in np.flatnonzero(np.abs(np.diff(values)) > 180.0):
             found.append(Wrap(axes[column], row + int(i), float(values[i]), float(values[i + 1])))
     return sorted(found, key=lambda wrap: wrap.row)
+
+
+def _with_start(s: Stretch, column: int) -> Array:
+    return np.append(s.start[column], s.acs[:, column])
 
 
 def _short_way(turn: Array) -> Array:

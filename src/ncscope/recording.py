@@ -18,6 +18,7 @@ from ncscope.frames import Array
 from ncscope.motion import MOTIONS, Move
 from ncscope.motion.arc import Arc
 from ncscope.motion.sampling import Paths, needs_points, sample
+from ncscope.motion.turning import turning_points
 from ncscope.trajectory import NO_BLOCK, Stretch
 
 
@@ -178,9 +179,12 @@ class Recorder:
     def _sampled(self, part: _Part) -> Stretch:
         """The stretch of a part with points along its moves."""
         s, spans = part.stretch, part.spans
-        if self._tolerance is None:
+        if self._tolerance is None and not part.arcs:
             return s
         paths = part.paths()
+        s = replace(s, turning=turning_points(s.coordinates, paths, s.acs))
+        if self._tolerance is None:
+            return s
         if not needs_points(s.coordinates, paths):
             return replace(s, ends=s.end)
         points = sample(s.coordinates, paths, s.acs, s.start, self._tolerance)

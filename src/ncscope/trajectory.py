@@ -23,6 +23,7 @@ from ncscope.explanation import Explanation, Visit, Whereabouts, whereabouts
 from ncscope.frames import Array
 from ncscope.machine import Axis
 from ncscope.motion import MOTIONS
+from ncscope.motion.turning import TurningPoints
 
 NO_BLOCK = -1
 """In the column `block`: the line has no N number."""
@@ -35,6 +36,7 @@ class Stretch:
     line, block: int64 (m,). motion: index into MOTIONS, int8 (m,). feed: NaN where none.
     pcs, acs: (m, n). start: (n,) axis positions before the first move. ends: (m,) whether the row
     is the end of its move and not a point on the way there, None where all are ends.
+    turning: where axes turn back on the arcs of the stretch; its rows count the moves.
     """
 
     coordinates: Coordinates
@@ -48,6 +50,7 @@ class Stretch:
     acs: Array
     start: Array
     ends: NDArray[np.bool_] | None = None
+    turning: TurningPoints | None = None
 
     def __len__(self) -> int:
         return len(self.line)

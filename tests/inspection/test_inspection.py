@@ -214,3 +214,45 @@ def test_machines_without_a_pole():
 def test_a_run_without_moves():
     found = ncscope.inspect(ncscope.run(MACHINE, "M30\n"))
     assert (found.travel, found.swings, found.wraps, len(found.pole_distance)) == ((), (), (), 0)
+
+
+# --- arcs --------------------------------------------------------------------------------------
+
+
+def test_a_circle_bulges_over_a_limit_between_its_ends():
+    # Half a circle about (0, 0) with radius 10, from -X over +Y to +X: Y reaches 10 in the middle.
+    text = "G00 X-10 Y0\nN20 G02 X10 Y0 I10 J0 F100\nM30\n"
+    result = ncscope.run(limited(Y=(-1.0, 9.5)), text)
+    (found,) = (d for d in result.diagnostics if d.id == "N4101")
+    assert found.line == 2 and "goes to 10 mm" in found.message
+    y = next(t for t in ncscope.inspect(result).travel if t.axis.name == "Y")
+    assert (y.low, y.high, y.high_row) == pytest.approx((0, 10, 1)) and y.above.tolist() == [1]
+    inside = ncscope.run(limited(Y=(-1.0, 10.0), X=(-10.0, 10.0)), text)
+    assert warnings(inside) == []
+
+
+@pytest.mark.parametrize("sample", [None, 0.01])
+def test_a_circle_in_a_turned_system(sample):
+    # Full circle, radius 5, about (5, 0) in a system turned by 30 degrees: the centre stands at
+    # (5 cos 30, 5 sin 30), and X and Y reach 5 to each side of it.
+    text = "#CS ON [0,0,0,0,0,30]\nG00 X0 Y0\nG02 X0 Y0 I5 J0 F100\n#CS OFF\nM30\n"
+    result = ncscope.run(limited(X=(-5.0, 9.0)), text, Options(sample=sample))
+    x, y = (t for t in ncscope.inspect(result).travel if t.axis.name in "XY")
+    cx, cy = 5 * np.cos(np.radians(30)), 2.5
+    assert (x.low, x.high) == pytest.approx((cx - 5, cx + 5), abs=1e-9)
+    assert (y.low, y.high) == pytest.approx((cy - 5, cy + 5), abs=1e-9)
+    assert warnings(result) == [("N4101", 3)]
+    assert "blocks" not in next(d for d in result.diagnostics if d.id == "N4101").message
+
+
+def test_an_arc_under_a_transformation():
+    text = "#TRAFO [91]\nG00 X-10 Y0 C0 A0\nG02 X10 Y0 I10 J0 F100\n#TRAFO OFF\nM30\n"
+    result = ncscope.run(limited(Y=(-1.0, 9.5)), text)
+    assert warnings(result) == [("N4101", 3)]
+
+
+def test_a_quarter_that_does_not_reach_the_limit():
+    # From (0, -10) to (10, 0) counter-clockwise: Y is never above 0 and X never below 0.
+    text = "G00 X0 Y-10\nG03 X10 Y0 I0 J10 F100\nM30\n"
+    result = ncscope.run(limited(Y=(-10.0, 0.0), X=(0.0, 10.0)), text)
+    assert warnings(result) == []

@@ -17,6 +17,7 @@ from ncscope.cli.convert import convert_command
 from ncscope.cli.explain import explain_command
 from ncscope.cli.kin import kin_app
 from ncscope.cli.plot import plot_command
+from ncscope.cli.report import report_command
 from ncscope.cli.run import run_command
 from ncscope.cli.screen import announce_compiling
 from ncscope.cli.where import where_command
@@ -36,6 +37,7 @@ app.command("convert")(convert_command)
 app.add_typer(kin_app, name="kin")
 app.command("workbench")(workbench_command)
 app.command("plot")(plot_command)
+app.command("report")(report_command)
 
 
 def _version(wanted: bool) -> None:

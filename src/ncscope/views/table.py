@@ -21,7 +21,9 @@ BETWEEN = "-"
 """In the column of the block number: a point on the way to the end of the block."""
 
 
-def run_table(result: Trajectory, whole: bool = False) -> Table:
+def run_table(
+    result: Trajectory, whole: bool = False, first: int = FIRST, last: int = LAST
+) -> Table:
     """Line, block number, motion, feed, then the axes in PCS, WCS, MCS and ACS."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("line", "N", "G", "F"):
@@ -31,10 +33,10 @@ def run_table(result: Trajectory, whole: bool = False) -> Table:
         table.add_column(axis, justify="right", no_wrap=True)
     systems = _systems(result)
     count = len(result)
-    hidden = 0 if whole or count <= FIRST + LAST else count - FIRST - LAST
-    shown = (*range(FIRST), *range(count - LAST, count)) if hidden else range(count)
+    hidden = 0 if whole or count <= first + last else count - first - last
+    shown = (*range(first), *range(count - last, count)) if hidden else range(count)
     for index, stretch, i in _rows(result, shown):
-        if hidden and index == count - LAST:
+        if hidden and index == count - last:
             table.add_row("", "", "", "", f"... {hidden} more", style="dim")
         for cells in _cells(result.axes, stretch, i, systems):
             table.add_row(*cells)

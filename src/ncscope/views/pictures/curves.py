@@ -52,7 +52,8 @@ def curves(result: Trajectory, inspection: Inspection, width: int = WIDTH) -> li
     pole = inspection.pole_distance
     if np.isfinite(pole).any():
         rows = envelope(pole, width)
-        note = f"tool to singular direction: {np.nanmin(pole):.4g} degrees and more"
+        nearest = inspection.nearest_to_pole or (0.0, 0)
+        note = f"tool to singular direction: {nearest[0]:.4f} degrees and more"
         marker = "o" if len(pole) <= FEW and not result.sampled else ""
         none = (np.empty(0), np.empty(0))
         found.append(Curve("pole °", blocks[rows], pole[rows], (), note, none, marker, names))
@@ -91,7 +92,7 @@ def _curve(
             if high - t.high < NEAR * height:
                 limits.append(high)
             note += f"; travel {low:g} to {high:g} {unit}"
-            beyond += [t.below, t.above]
+            beyond += [np.unique(t.below), np.unique(t.above)]
     outside = np.concatenate(beyond)
     outside = outside[envelope(values[outside], width // 4)] if len(outside) else outside
     marker = "o" if len(values) <= FEW and len(values) == len(names) else ""

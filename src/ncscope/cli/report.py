@@ -1,0 +1,97 @@
+"""`ncscope report`: a run as one html document."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ncscope.cli.inputs import read_machine, run_program
+from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels
+from ncscope.cli.plot import (
+    SAMPLE,
+    SampleOption,
+    check_target,
+    need_libraries,
+    read_sample,
+    write_picture,
+)
+from ncscope.cli.screen import fail
+
+if TYPE_CHECKING:
+    from ncscope.execution import Program
+    from ncscope.explanation import Explanation
+    from ncscope.trajectory import Trajectory
+
+
+def report_command(
+    program: Annotated[Path, typer.Argument(help="NC program.")],
+    out: Annotated[Path, typer.Option("--out", "-o", help="File: .html.")],
+    machine: MachineOption = None,
+    explain: Annotated[
+        str, typer.Option("--explain", help="Blocks to explain: N40,N60 or lines: 12,15.")
+    ] = "",
+    clamp: ClampOption = None,
+    skip: SkipOption = "",
+    max_blocks: Annotated[
+        int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
+    ] = 0,
+    sample: SampleOption = SAMPLE,
+) -> None:
+    """Write a run as one document that opens without a network."""
+    if out.suffix.lower() != ".html":
+        fail(f"--out {out}: the name must end in .html")
+    need_libraries()
+    check_target(out, program)
+    wanted = _read_blocks(explain)
+    from ncscope.execution import Options
+    from ncscope.views.report import Subject, report_page
+
+    tolerance = read_sample(sample)
+    options = Options(clamp, read_levels(skip), max_blocks, sample=tolerance)
+    result, found, source = run_program(program, machine, options)
+    lists, _ = read_machine(machine)
+    subject = Subject(
+        program.name,
+        lists,
+        result,
+        [d for d in found if d.severity != "note"],
+        _lists(machine),
+        _in_words(clamp, skip),
+        [_explained(result, source, text) for text in wanted],
+    )
+    write_picture(out, report_page(subject))
+    raise typer.Exit(0 if result.ok and not any(d.is_error for d in found) else 1)
+
+
+def _read_blocks(text: str) -> list[str]:
+    parts = [part.strip().upper() for part in text.split(",") if part.strip()]
+    for part in parts:
+        if not part.removeprefix("N").isdecimal():
+            fail(f"--explain {text}: write blocks as N40,N60 or lines as 12,15")
+    return parts
+
+
+def _explained(result: Trajectory, program: Program, text: str) -> tuple[str, Explanation]:
+    try:
+        number = text.removeprefix("N")
+        line = int(number) if number == text else result.line_of_block(int(number))
+        explanation = result.explain(line)
+    except KeyError as error:
+        fail(f"--explain {text}: {error.args[0]}", code=1)
+    return program.source.line_text(line), explanation
+
+
+def _lists(machine: Path | None) -> list[tuple[str, str]]:
+    if machine is None:
+        return []
+    from ncscope.lists.files import find_lists
+    from ncscope.lists.table import LIST_NAMES
+
+    return [(f.document.name, LIST_NAMES[f.list_kind]) for f in find_lists(machine)[0]]
+
+
+def _in_words(clamp: int | None, skip: str) -> str:
+    parts = [f"clamp position {clamp}"] if clamp is not None else []
+    return ", ".join([*parts, *([f"skip levels {skip}"] if skip else [])])
