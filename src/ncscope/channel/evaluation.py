@@ -153,7 +153,10 @@ def _find(draft: Draft, node: tree.Variable, numbers: tuple[int, ...]) -> tuple[
     group = word_entry(".".join(names[:2]).partition("[")[0] + ".")
     if group is not None and group.kind == "refused":
         draft.fail("N2001", node.span, f"{reference.text} is not supported yet ({group.purpose})")
-    draft.fail("20196", node.span, f"the variable {reference.text} is unknown")
+    other = f"V.G.{key[2:]}"
+    known = other in VARIABLES or other.startswith("V.G.KIN[].")
+    hint = f"V.G.{reference.text[2:]} was probably meant" if known else ""
+    draft.fail("20196", node.span, f"the variable {reference.text} is unknown", hint)
 
 
 def _by_index(draft: Draft, key: str, reference: Reference) -> tuple[Row, Reference]:

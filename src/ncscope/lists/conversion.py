@@ -92,7 +92,7 @@ def _old_syntax(document: ListDocument, keep_heads: bool) -> Converted:
     found = list(_without_old_form(document))
     ids: set[int] = {s.id for s in _sets(document) if s.slot.fixed_id is not None}
     for item in _sets(document):
-        if item.slot.fixed_id is not None or item.slot.step > 0:
+        if item.slot.fixed_id is not None or item.slot.step != 0:
             continue
         why = _no_old_form(item, ids)
         if why:

@@ -20,7 +20,8 @@ _KEY = rf"[A-Za-z_]\w*{_INDICES}(?:\.\w+{_INDICES})*"
 _ENTRY = re.compile(rf"[ \t]*(?P<key>{_KEY})(?=[ \t\r\f\v]|$)[ \t]*", re.ASCII)
 _TOKEN = r"(?:(?!/\*)[^\s(#])+"
 _VALUE = re.compile(rf"{_TOKEN}(?:[ \t]*\|[ \t]*{_TOKEN})*")
-_FILLER = re.compile(r"\.{2,}|:+|\u2026")
+_FILLER = re.compile(r"\.{2,}|:+|\u2026|\x85|\xe2\x80\xa6")
+_FENCE = re.compile(r"```.*|~~~.*")
 _NUMBER_ALONE = re.compile(r"[+-]?\d[\d.,eExX+-]*")
 BYTE_ORDER_MARKS = ("\xef\xbb\xbf", "\xff\xfe", "\xfe\xff")
 
@@ -173,7 +174,10 @@ class _Parser:
     def _not_an_entry(self, line: str, offset: int) -> None:
         span = self._span(line, offset)
         if _FILLER.fullmatch(span.text):
-            message = f"'{span.text}' stands for lines that were left out; it is skipped"
+            shown = span.text if span.text.isascii() else "..."
+            message = f"'{shown}' stands for lines that were left out; it is skipped"
+        elif _FENCE.fullmatch(span.text):
+            message = f"'{span.text[:3]}' marks printed text and is no entry; it is skipped"
         else:
             message = "the line is not an entry 'key value'; it is skipped"
         self.found.append(diagnostic("N3001", span, message, "begin comment lines with '# '"))

@@ -22,6 +22,8 @@ _SLOT = re.compile(
 )
 
 
+_AXIS = re.compile(r"(?P<slot>.*\.axis\[)(?P<axis>\d+)\]")
+
 PROGRAM_STEP = -1
 """The step of a PCS transformation (trafo_pcs)."""
 
@@ -75,6 +77,7 @@ def read_sets(
     """The data sets in the order in which their slots first appear, and overwritten numbers."""
     sets: dict[Slot, KinematicSet] = {}
     found: list[Diagnostic] = []
+    readings = tuple(readings)
     for reading in readings:
         split = split_key(reading.entry.key)
         if split is None or reading.value is None:
@@ -90,7 +93,7 @@ def read_sets(
         else:
             found.extend(_overwritten(current, index, reading))
             sets[slot] = _with_number(current, index, reading)
-    return tuple(sets.values()), tuple(found)
+    return tuple(sets.values()), _with_meant_index(found, readings)
 
 
 def by_id(
@@ -149,6 +152,35 @@ def overwrite_warning(reading: Reading, old: str, writers: tuple[Span, ...]) -> 
     hint = "the last entry counts; check the index numbers of the key, or delete one of the lines"
     notes = tuple(("written before here", span) for span in writers)
     return diagnostic("N3007", reading.entry.key_span, message, hint, notes=notes)
+
+
+def _with_meant_index(
+    found: Iterable[Diagnostic], readings: tuple[Reading, ...]
+) -> tuple[Diagnostic, ...]:
+    """Overwritten numbers of an axis that stand among lines of another axis get its index as hint.
+
+    The lists of FCT-C27 4.1.2 and 4.1.3 have this slip: `axis[0]` in the blocks of other axes.
+    """
+    places = {id(r.entry.key_span): place for place, r in enumerate(readings)}
+    written = {r.entry.key.lower() for r in readings}
+    result = []
+    for item in found:
+        place = places.get(id(item.span))
+        meant = "" if place is None else _meant_key(readings, place, written)
+        result.append(replace(item, hint=f"{meant} was probably meant") if meant else item)
+    return tuple(result)
+
+
+def _meant_key(readings: tuple[Reading, ...], place: int, written: set[str]) -> str:
+    """The key with the axis index of the lines around it, when nothing else writes that key."""
+    own = _AXIS.match(readings[place].entry.key)
+    around = [r for r in readings[max(place - 1, 0) : place + 2] if r is not readings[place]]
+    matches = [_AXIS.match(r.entry.key) for r in around]
+    indices = {m["axis"] for m in matches if m and own and m["slot"] == own["slot"]}
+    if own is None or len(indices) != 1 or own["axis"] in indices:
+        return ""
+    meant = f"{own['slot']}{indices.pop()}{readings[place].entry.key[own.end('axis') :]}"
+    return "" if meant.lower() in written else meant
 
 
 def _same_id(earlier: KinematicSet, later: KinematicSet) -> Diagnostic:

@@ -24,6 +24,8 @@ _REAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _SYMBOLS = re.compile(r"[A-Za-z_]\w*([ \t]*\|[ \t]*\w+)*", re.ASCII)
 _MAX_DIGITS = 40
 
+_VARIABLE = re.compile(r"V\.(?:G\.)?KIN\[(?P<id>\d+)\]\.(?P<field>.+)", re.IGNORECASE)
+
 MEANT = {"inaktiv": "versch"}
 """An entry that is often written where the other one is meant."""
 
@@ -199,6 +201,10 @@ def _unknown_key(entry: Entry, list_kind: str) -> Diagnostic:
 
 
 def _key_hint(entry: Entry, list_kind: str) -> str:
+    variable = _VARIABLE.fullmatch(entry.key)
+    if variable:
+        name = f"kinematik[{variable['id']}].{variable['field'].lower()}"
+        return f"V.G.KIN is the spelling of NC programs; in a list write {name}"
     close = table.close_matches(list_kind, entry.key)
     if close:
         return f"{_with_indices(close[0], entry)} was probably meant"
