@@ -331,7 +331,9 @@ def test_check_finds_the_slips_of_the_printed_lists() -> None:
 def test_check_every_example_program(path: Path) -> None:
     named = re.search(r"machine: (\w+)", path.read_text("latin-1"))
     machine = named.group(1) if named else "xyzac_axes"
-    result = call("check", path, "--machine", MACHINES / machine)
+    own = re.search(r"kinematics: (\w+\.py)", path.read_text("latin-1"))
+    more = ["--kinematics", EXAMPLES / "kinematics" / own.group(1)] if own else []
+    result = call("check", path, "--machine", MACHINES / machine, *more)
     assert result.exit_code == (1 if "as_printed" in path.name else 0), result.stderr
     assert not Path("message.txt").exists()
 

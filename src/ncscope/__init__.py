@@ -22,6 +22,7 @@ __all__ = [
     "load_rows",
     "render",
     "run",
+    "with_user_kinematics",
 ]
 
 _HOME = {
@@ -37,6 +38,7 @@ _HOME = {
     "load_rows": "ncscope.loading",
     "render": "ncscope.diagnostics",
     "run": "ncscope.execution",
+    "with_user_kinematics": "ncscope.loading.user_kinematics",
 }
 
 

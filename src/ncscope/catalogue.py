@@ -274,6 +274,10 @@ CATALOGUE: dict[str, Entry] = {
     # Conversion of lists, our own
     "N3501": Entry("warning", "A part of a list has no form in the syntax that is asked for."),
     "N3502": Entry("error", "A library kinematics cannot be turned into the universal one."),
+    # Kinematics of the user, our own
+    "N2601": Entry("error", "A class of the user's kinematics failed."),
+    "N2602": Entry("error", "The user's kinematics has no solution."),
+    "N4301": Entry("error", "A kinematics of the user cannot be loaded."),
     # Run, our own
     "N4001": Entry("error", "The program has more blocks than --max-blocks allows."),
     "N4002": Entry("error", "The program cannot be read."),

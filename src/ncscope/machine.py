@@ -202,6 +202,19 @@ class Machine:
         """
         return _Kinematics(self)
 
+    @property
+    def kinematic_ids_of_user(self) -> tuple[int, ...]:
+        """Ids of the data sets that need a kinematics of the user (types 500 to 999)."""
+        from ncscope.kinematics.building import FIRST_ID, LAST_ID, type_of
+
+        sets = (
+            self.kinematic_parameters,
+            self.second_step_parameters,
+            self.program_step_parameters,
+        )
+        ids = {id for held in sets for id, p in held.items() if FIRST_ID <= type_of(p) <= LAST_ID}
+        return tuple(sorted(ids))
+
 
 class _Kinematics(Mapping[int, "KinematicStep"]):
     def __init__(self, machine: Machine) -> None:

@@ -10,6 +10,7 @@ import typer
 from ncscope.cli.inputs import run_program
 from ncscope.cli.options import (
     FoldersOption,
+    KinematicsOption,
     MachineOption,
     ProbeOption,
     SetOption,
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 def check_command(
     paths: Annotated[list[Path], typer.Argument(help="Lists, folders of lists, programs.")],
     machine: MachineOption = None,
+    kinematics: KinematicsOption = None,
     probe: ProbeOption = None,
     values: SetOption = None,
     folders: FoldersOption = None,
@@ -42,7 +44,7 @@ def check_command(
             from ncscope.execution import Options
 
             options = Options(max_blocks=1_000_000, external=read_settings(values))
-            result, more, _ = run_program(path, machine, options, probe, folders or ())
+            result, more, _ = run_program(path, machine, options, probe, folders or (), kinematics)
             found.extend([*(d for d in more if d.severity != "note"), *result.diagnostics])
     show_diagnostics(found)
     counts = {s: sum(d.severity == s for d in found) for s in ("error", "warning", "note")}

@@ -16,7 +16,7 @@ from ncscope.cli.kin_options import (
     PosesOption,
     output_form,
 )
-from ncscope.cli.kinematics import chosen_kinematics
+from ncscope.cli.kinematics import universal_kinematics
 from ncscope.cli.pose_input import grid_rows, poses_file
 from ncscope.cli.screen import console, fail
 
@@ -47,7 +47,7 @@ def compare_command(
         fail("kin compare writes csv or jsonl")
     if (poses is None) == (not grid):
         fail("which poses? give --poses FILE, or --grid X=-100:100:5 C=-180:180:7 ..")
-    a, b = chosen_kinematics(first, id), chosen_kinematics(second, id)
+    a, b = universal_kinematics(first, id), universal_kinematics(second, id)
     if poses is not None:
         program = poses_file(poses).rows(a.axis_names, "pcs_")
     else:

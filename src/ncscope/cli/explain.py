@@ -11,6 +11,7 @@ from ncscope.cli.inputs import run_program
 from ncscope.cli.options import (
     ClampOption,
     FoldersOption,
+    KinematicsOption,
     MachineOption,
     ProbeOption,
     SetOption,
@@ -32,6 +33,7 @@ class ExplainFormat(StrEnum):
 def explain_command(
     place: Annotated[str, typer.Argument(metavar="PROGRAM:LINE", help="Or PROGRAM:N40.")],
     machine: MachineOption = None,
+    kinematics: KinematicsOption = None,
     format: Annotated[
         ExplainFormat, typer.Option("--format", help="text or json.")
     ] = ExplainFormat.TEXT,
@@ -49,7 +51,7 @@ def explain_command(
 
     path, line, number = read_place(place)
     options = Options(clamp, read_levels(skip), external=read_settings(values))
-    result, found, source = run_program(path, machine, options, probe, folders or ())
+    result, found, source = run_program(path, machine, options, probe, folders or (), kinematics)
     try:
         if number is not None:
             line = result.line_of_block(number)

@@ -23,6 +23,7 @@ def run_program(
     options: Options,
     probe: Path | None = None,
     folders: Sequence[Path] = (),
+    kinematics: Path | None = None,
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
     """The run of a program, what the lists and the file of probe answers have wrong, and the
     program; ends the process when a file cannot be read."""
@@ -33,7 +34,7 @@ def run_program(
     from ncscope.loading import load_program, subprogram_loader
     from ncscope.trajectory import Trajectory
 
-    machine, found = read_machine(machine_path)
+    machine, found = read_machine(machine_path, kinematics)
     if options.clamp is not None and options.clamp not in machine.clamp_positions:
         has = ", ".join(str(i) for i in sorted(machine.clamp_positions)) or "none"
         fail(f"clamp position {options.clamp} does not exist; the lists have: {has}")
@@ -68,14 +69,26 @@ def _read_rows(path: Path | None, found: list[Diagnostic]) -> GivenRows | None:
     return rows
 
 
-def read_machine(path: Path | None) -> tuple[Machine, list[Diagnostic]]:
-    if path is None:
-        from ncscope.machine import Machine
+def read_machine(
+    path: Path | None, kinematics: Path | None = None
+) -> tuple[Machine, list[Diagnostic]]:
+    """The machine with the user's kinematics, and what lists and classes have wrong."""
+    from ncscope.machine import Machine
 
-        return Machine(), []
-    if not path.exists():
-        fail(f"machine {path} does not exist")
-    from ncscope.lists import load_machine
+    machine, found = Machine(), []
+    if path is not None:
+        from ncscope.lists import load_machine
 
-    machine, found = load_machine(path)
-    return machine, list(found)
+        if not path.exists():
+            fail(f"machine {path} does not exist")
+        machine, problems = load_machine(path)
+        found = list(problems)
+    if kinematics is None and not machine.kinematic_ids_of_user:
+        return machine, found
+    from ncscope.loading.user_kinematics import with_user_kinematics
+
+    try:
+        machine, problems = with_user_kinematics(machine, kinematics)
+    except OSError as error:
+        fail(f"cannot read {kinematics}: {error.strerror}")
+    return machine, [*found, *problems]

@@ -18,14 +18,14 @@ from ncscope.cli.kin_options import (
     output_form,
 )
 from ncscope.cli.kinematics import chosen_kinematics
-from ncscope.cli.options import MachineOption
+from ncscope.cli.options import KinematicsOption, MachineOption
 from ncscope.cli.pose_input import near_values, poses_file, word_row
 from ncscope.cli.screen import console, fail
 from ncscope.cli.words import WordsCommand, read_words
 
 if TYPE_CHECKING:
     from ncscope.frames import Array
-    from ncscope.kinematics import UniversalKinematics
+    from ncscope.kinematics import KinematicStep
     from ncscope.kinematics.poses import Poses
 
 kin_app = typer.Typer(
@@ -49,23 +49,32 @@ def forward_command(
     ] = None,
     poses: PosesOption = None,
     machine: MachineOption = None,
+    kinematics: KinematicsOption = None,
     id: IdOption = None,
     tool_length: LengthOption = 0.0,
     format: FormatOption = None,
     out: OutOption = None,
 ) -> None:
     """Where the tool is for given axis values (mm, degrees)."""
-    from ncscope.kinematics.poses import poses_of_axes
+    from ncscope.kinematics import KinematicsError, UniversalKinematics
+    from ncscope.kinematics.poses import poses_of_axes, poses_of_step
 
     shape = output_form(format, out, poses)
-    kin = chosen_kinematics(machine, id)
+    kin, names = chosen_kinematics(machine, id, kinematics)
     given = [*(words or []), *(axes or [])]
     if poses is not None:
         _one_source(bool(given))
-        rows = poses_file(poses).rows(kin.axis_names, "acs_")
+        rows = poses_file(poses).rows(names, "acs_")
     else:
-        rows = word_row(given, kin.axis_names, "--axes")
-    _write(shape, out, kin, poses_of_axes(kin, rows, tool_length), tool_length)
+        rows = word_row(given, names, "--axes")
+    try:
+        if isinstance(kin, UniversalKinematics):
+            found = poses_of_axes(kin, rows, tool_length)
+        else:
+            found = poses_of_step(kin, names, axes=rows, tool_length=tool_length)
+    except KinematicsError as error:
+        fail(f"{error.id}: {error.message}", code=1)
+    _write(shape, out, kin, found, tool_length)
 
 
 @kin_app.command("inverse", cls=WordsCommand)
@@ -85,6 +94,7 @@ def inverse_command(
     near: NearOption = None,
     both: Annotated[bool, typer.Option("--both", help="Both poses of the rotary axes.")] = False,
     machine: MachineOption = None,
+    kinematics: KinematicsOption = None,
     id: IdOption = None,
     tool_length: LengthOption = 0.0,
     format: FormatOption = None,
@@ -92,26 +102,57 @@ def inverse_command(
 ) -> None:
     """Where the axes go for programmed words, or for a tool tip and direction (mm, degrees)."""
     from ncscope.kinematics import KinematicsError
-    from ncscope.kinematics.poses import poses_of_program, poses_of_tool
 
     shape = output_form(format, out, poses)
-    kin = chosen_kinematics(machine, id)
+    kin, names = chosen_kinematics(machine, id, kinematics)
     given = [*(words or []), *(program or [])]
-    start = near_values(near, kin.axis_names)
+    start = near_values(near, names)
     by_tool = tip is not None or direction is not None
     _one_source(sum((bool(given), by_tool, poses is not None)) > 1)
     table = None if poses is None else poses_file(poses)
     try:
-        if by_tool or (table is not None and table.has_tool(kin.axis_names)):
-            points, vectors = table.tool() if table else _tool(tip, direction)
-            found = poses_of_tool(kin, points, vectors, tool_length, start, both)
+        if by_tool or (table is not None and table.has_tool(names)):
+            tool = table.tool() if table else _tool(tip, direction)
+            found = _of_tool(kin, tool, tool_length, start, both)
         else:
-            names = kin.axis_names
             rows = table.rows(names, "pcs_") if table else word_row(given, names, "--program")
-            found = poses_of_program(kin, rows, tool_length, start, both)
+            found = _of_program(kin, names, rows, tool_length, start, both)
     except KinematicsError as error:
         fail(f"{error.id}: {error.message}", code=1)
     _write(shape, out, kin, found, tool_length)
+
+
+def _of_tool(
+    kin: KinematicStep,
+    tool: tuple[Array, Array],
+    tool_length: float,
+    near: Array | None,
+    both: bool,
+) -> Poses:
+    from ncscope.kinematics import UniversalKinematics
+    from ncscope.kinematics.poses import poses_of_tool
+
+    if not isinstance(kin, UniversalKinematics):
+        fail("tool tip and direction are solved for type 91 only; give the programmed words")
+    return poses_of_tool(kin, *tool, tool_length, near, both)
+
+
+def _of_program(
+    kin: KinematicStep,
+    names: tuple[str, ...],
+    rows: Array,
+    tool_length: float,
+    near: Array | None,
+    both: bool,
+) -> Poses:
+    from ncscope.kinematics import UniversalKinematics
+    from ncscope.kinematics.poses import poses_of_program, poses_of_step
+
+    if isinstance(kin, UniversalKinematics):
+        return poses_of_program(kin, rows, tool_length, near, both)
+    if both:
+        fail("--both: this kinematics has one pose")
+    return poses_of_step(kin, names, program=rows, tool_length=tool_length, near=near)
 
 
 def _tool(
@@ -136,21 +177,22 @@ def _one_source(several: bool) -> None:
 
 
 def _write(
-    shape: str, out: Path | None, kin: UniversalKinematics, found: Poses, tool_length: float
+    shape: str, out: Path | None, kin: KinematicStep, found: Poses, tool_length: float
 ) -> None:
-    from ncscope.kinematics import explain_status
+    from ncscope.kinematics import UniversalKinematics, explain_status
     from ncscope.views import poses as view
 
     def explain(status: int) -> tuple[str, str]:
+        assert isinstance(kin, UniversalKinematics)  # others raise for rows without a solution
         return explain_status(kin, status)
 
     failed = int((found.status != 0).sum())
     if shape == "table":
         terminal = console()
-        kind = "RTCP" if kin.rtcp else "complete transformation"
-        terminal.print(
-            f"kinematics {kin.id}, {kind}, mode {kin.mode}, tool length {tool_length:g} mm"
-        )
+        kind = kin.name
+        if isinstance(kin, UniversalKinematics):
+            kind = f"{'RTCP' if kin.rtcp else 'complete transformation'}, mode {kin.mode}"
+        terminal.print(f"kinematics {kin.id}, {kind}, tool length {tool_length:g} mm")
         terminal.print(view.poses_table(found, explain))
     else:
         _write_file(shape, out, found, explain)

@@ -11,30 +11,40 @@ from ncscope.cli.inputs import read_machine
 from ncscope.cli.screen import fail, show_diagnostics
 
 if TYPE_CHECKING:
-    from ncscope.kinematics import UniversalKinematics
+    from ncscope.kinematics import KinematicStep, UniversalKinematics
     from ncscope.machine import Machine
 
 UNIVERSAL = 91
 
 
-def chosen_kinematics(path: Path | None, id: int | None) -> UniversalKinematics:
-    """The kinematics of a machine; ends the process with what is wrong when there is none."""
-    from ncscope.kinematics import KinematicsError, UniversalKinematics
+def universal_kinematics(path: Path | None, id: int | None) -> UniversalKinematics:
+    """`chosen_kinematics` that has to be of type 91."""
+    from ncscope.kinematics import UniversalKinematics
+
+    kinematics, _ = chosen_kinematics(path, id)
+    if not isinstance(kinematics, UniversalKinematics):
+        fail(f"kinematics {kinematics.id} is not of type 91, the universal kinematics")
+    return kinematics
+
+
+def chosen_kinematics(
+    path: Path | None, id: int | None, own: Path | None = None
+) -> tuple[KinematicStep, tuple[str, ...]]:
+    """The kinematics of a machine and the axis names of its channel; ends the process with what
+    is wrong when there is none. own: file with kinematics of the user."""
+    from ncscope.kinematics import KinematicsError
 
     if path is None:
         fail("which machine? give --machine with its folder of lists")
-    machine, found = read_machine(path)
+    machine, found = read_machine(path, own)
     show_diagnostics(d for d in found if d.severity != "note")
     if any(d.is_error for d in found):
         raise typer.Exit(1)
     id = _id(machine, path, id)
     try:
-        kinematics = machine.kinematics[id]
+        return machine.kinematics[id], machine.axis_names
     except KinematicsError as error:
         _explain(path, id, error)
-    if not isinstance(kinematics, UniversalKinematics):
-        fail(f"kinematics {id} is not of type 91, the universal kinematics")
-    return kinematics
 
 
 def _id(machine: Machine, path: Path, id: int | None) -> int:
@@ -42,7 +52,7 @@ def _id(machine: Machine, path: Path, id: int | None) -> int:
     if not known:
         fail(f"the lists of {path} configure no kinematics")
     default = machine.settings.default_kinematic_id
-    for candidate in (id,) if id is not None else (default, UNIVERSAL, *known[:1]):
+    for candidate in (default, UNIVERSAL, *known[:1]) if id is None else (id,):
         if candidate in known:
             return candidate
     fail(f"kinematics {id} is not configured; {path} has {', '.join(map(str, known))}")

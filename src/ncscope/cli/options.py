@@ -14,6 +14,10 @@ MachineOption = Annotated[
     Path | None,
     typer.Option("--machine", "-m", help="Folder of lists, start-up list, or one list."),
 ]
+KinematicsOption = Annotated[
+    Path | None,
+    typer.Option("--kinematics", help="Python file with kinematics of the user; it is run."),
+]
 ClampOption = Annotated[
     int | None, typer.Option("--clamp", help="Clamp position handed over at program start.")
 ]

@@ -13,6 +13,7 @@ from ncscope.cli.inputs import run_program
 from ncscope.cli.options import (
     ClampOption,
     FoldersOption,
+    KinematicsOption,
     MachineOption,
     ProbeOption,
     SetOption,
@@ -38,6 +39,7 @@ class Format(StrEnum):
 def run_command(
     program: Annotated[Path, typer.Argument(help="NC program.")],
     machine: MachineOption = None,
+    kinematics: KinematicsOption = None,
     format: Annotated[Format | None, typer.Option("--format", help="table, jsonl or csv.")] = None,
     out: Annotated[Path | None, typer.Option("--out", help="File instead of the screen.")] = None,
     messages: Annotated[
@@ -73,7 +75,7 @@ def run_command(
     options = Options(
         clamp, read_levels(skip), max_blocks, strict, external=external, sample=sample
     )
-    result, found, _ = run_program(program, machine, options, probe, folders or ())
+    result, found, _ = run_program(program, machine, options, probe, folders or (), kinematics)
     found = [d for d in found if d.severity != "note"]
     errors = write_messages(messages, result.messages, (program,))
     ok = result.ok and not any(d.is_error for d in (*found, *errors))

@@ -12,6 +12,7 @@ import typer
 from ncscope.cli.inputs import run_program
 from ncscope.cli.options import (
     ClampOption,
+    KinematicsOption,
     MachineOption,
     ProbeOption,
     SkipOption,
@@ -37,6 +38,7 @@ def where_command(
         list[str] | None, typer.Argument(metavar="Y=2 ..", help="Further axes.", hidden=True)
     ] = None,
     machine: MachineOption = None,
+    kinematics: KinematicsOption = None,
     format: Annotated[
         WhereFormat, typer.Option("--format", help="table or json.")
     ] = WhereFormat.TABLE,
@@ -51,7 +53,8 @@ def where_command(
 
     positions = read_positions([*axes, *(more or ())])
     path, line, number = read_place(at)
-    result, found, source = run_program(path, machine, Options(clamp, read_levels(skip)), probe)
+    options = Options(clamp, read_levels(skip))
+    result, found, source = run_program(path, machine, options, probe, kinematics=kinematics)
     try:
         if number is not None:
             line = result.line_of_block(number)

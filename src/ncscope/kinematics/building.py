@@ -15,6 +15,8 @@ from ncscope.kinematics.step import Builder, KinematicsError, KinematicStep
 from ncscope.kinematics.universal import UniversalKinematics
 
 UNIVERSAL = 91
+FIRST_ID, LAST_ID = 500, 999
+"""Types of the user's own kinematics."""
 
 
 def type_of(parameters: KinematicParameters) -> int:
@@ -44,9 +46,12 @@ def build(
         return types[type](parameters, axis_names, default_mode)
     if type != UNIVERSAL:
         known = ", ".join(str(t) for t in sorted({UNIVERSAL, *(types or ())}))
+        hint = f"known types: {known}"
+        if FIRST_ID <= type <= LAST_ID:
+            hint = f"give its Python class with --kinematics FILE.py; {hint}"
         raise KinematicsError(
             "N2001",
             f"kinematics {parameters.id} of type {type} is not supported",
-            hint=f"known types: {known}",
+            hint=hint,
         )
     return UniversalKinematics.from_parameters(parameters, axis_names, default_mode, reading)

@@ -6,6 +6,7 @@ Leaves: `Poses`, which knows all of them with the pose number and the condition 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -15,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from ncscope.kinematics import kernels
 from ncscope.kinematics.jacobian import conditions
 from ncscope.kinematics.orientation import OrientationSolver
-from ncscope.kinematics.universal import KinematicsError, UniversalKinematics
+from ncscope.kinematics.step import KinematicsError, KinematicStep
+from ncscope.kinematics.universal import UniversalKinematics
 
 Array = NDArray[np.float64]
 
@@ -93,6 +95,42 @@ def poses_of_tool(
         found.append(_turned(kin, points, vectors, tool_length, near, -pose))
     parts = [_poses(kin, axes, status, tool_length) for axes, status in found]
     return _together(*parts) if both else parts[0]
+
+
+def poses_of_step(
+    step: KinematicStep,
+    names: Sequence[str],
+    axes: ArrayLike | None = None,
+    program: ArrayLike | None = None,
+    tool_length: float = 0.0,
+    near: ArrayLike | None = None,
+) -> Poses:
+    """The poses of any kinematics for axis values or programmed values (m, n_channel).
+
+    Condition numbers are NaN, the direction too where the kinematics has no tool.
+    Raises KinematicsError for rows without a solution.
+    """
+    if axes is None:
+        programmed = np.atleast_2d(np.asarray(program, np.float64))
+        values = step.inverse(programmed, tool_length, near)
+    else:
+        values = np.atleast_2d(np.asarray(axes, np.float64))
+        programmed = step.program(values, tool_length)
+    tip, direction = step.forward(values, tool_length)
+    count = len(values)
+    nothing = np.full(count, np.nan)
+    return Poses(
+        tuple(names),
+        np.arange(count),
+        programmed,
+        values,
+        tip,
+        np.full((count, 3), np.nan) if direction is None else direction,
+        np.ones(count, np.int8),
+        nothing,
+        nothing,
+        np.zeros(count, np.int8),
+    )
 
 
 def _solver(kin: UniversalKinematics) -> OrientationSolver:

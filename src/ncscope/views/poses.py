@@ -54,7 +54,7 @@ def _add_pose(table: Table, poses: Poses, i: int, explain: Explain) -> None:
         return
     tip = [*(number(v) for v in poses.tip[i]), *empty][: len(empty)]
     acs = [number(v) for v in poses.axes[i, : len(empty)]]
-    direction = " ".join(f"{number(c):>7}" for c in poses.direction[i])
+    direction = " ".join(f"{number(c):>7}" for c in poses.direction[i] if not np.isnan(c))
     condition = _condition(max(poses.linear[i], poses.rotary[i]))
     table.add_row(str(poses.row[i] + 1), f"{poses.pose[i]:+d}", "PCS", *pcs)
     table.add_row("", "", "MCS", *tip, direction)
@@ -62,6 +62,8 @@ def _add_pose(table: Table, poses: Poses, i: int, explain: Explain) -> None:
 
 
 def _condition(value: float) -> str:
+    if np.isnan(value):
+        return ""
     return "singular" if not value < 1e9 else f"{value:.4g}"
 
 
