@@ -73,6 +73,7 @@ CATALOGUE: dict[str, Entry] = {
     "20034": Entry("error", "A full circle cannot be given by its radius."),
     "20035": Entry("error", "The centre of an arc is too far from one that fits."),
     "20036": Entry("error", "The radius of an arc is 0."),
+    "20958": Entry("error", "A relative word of a modulo axis has two signs."),
     "20961": Entry("error", "A centre word belongs to an axis outside of the plane."),
     "21024": Entry("error", "An arc has a centre and a radius."),
     "21758": Entry("error", "Start and end radius of an arc differ too much."),

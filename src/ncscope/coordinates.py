@@ -23,7 +23,16 @@ from ncscope.contour import NO_CONTOUR, Contour
 from ncscope.frames import Array, Frame
 from ncscope.kinematics.alignment import LengthCorrection
 from ncscope.kinematics.step import KinematicsError, KinematicStep, Pose
-from ncscope.levels import BASE_LEVEL, NO_TOOL, OFFSET_KINDS, ActiveTool, Level, Offset
+from ncscope.levels import (
+    BASE_LEVEL,
+    NO_MODULO,
+    NO_TOOL,
+    OFFSET_KINDS,
+    ActiveTool,
+    Level,
+    ModuloAxes,
+    Offset,
+)
 
 __all__ = [
     "BASE_LEVEL",
@@ -72,6 +81,7 @@ class Coordinates:
     """The chain that is valid for one block.
 
     axis_count: columns of every array. levels: from the workpiece level 0 to the innermost one.
+    modulo: axes that are shown inside a range, in the program and at the machine.
     program_step: what maps programmed values before everything else (#TRAFO PCS).
     length_step: what carries axis values over to a tool of another length (#TLC).
     Source: TF5200 coordinate systems and offsets; FCT-C2; TF5200 #CS; FCT-C27.
@@ -84,6 +94,7 @@ class Coordinates:
     contour: Contour = NO_CONTOUR
     program_step: ActiveKinematics | None = None
     length_step: ActiveLengthCorrection | None = None
+    modulo: ModuloAxes = NO_MODULO
 
     def __post_init__(self) -> None:
         """Raises ValueError for a coordinate system over fewer than three main axes."""
@@ -115,6 +126,8 @@ class Coordinates:
         layers = [Layer("programmed", None, np.zeros(self.axis_count), values)]
         for name, origin, step in self._steps(near):
             after = step(values)
+            if name == "modulo" and np.array_equal(after, values):
+                continue
             layers.append(Layer(name, origin, after - values, after))
             values = after
         layers.append(Layer("axes", None, np.zeros(self.axis_count), values))
@@ -138,11 +151,12 @@ class Coordinates:
         result[..., 3:] -= self._offset_total[3:]
         back = self._main(self.mcs_frame.inverse)
         result[..., :n] = _transformed(result[..., :n], *back)
-        return self._unmapped(self.contour.invert(result), near)
+        return self.shown(self._unmapped(self.contour.invert(result), near))
 
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Axis positions (..., n) for a tool tip (..., n) in the machine system."""
-        return self._solved(np.asarray(mcs, dtype=float) - self.tool_vector, near)
+        position = np.asarray(mcs, dtype=float) - self.tool_vector
+        return self.modulo.wrap(self._solved(position, near))
 
     def mcs_from_axes(self, axes: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Tool tip (..., n) in the machine system for axis positions (..., n).
@@ -177,7 +191,12 @@ class Coordinates:
     def program_from_level(self, level: ArrayLike) -> Array:
         """The programmed values (..., n) that show for level-absolute values (..., n)."""
         values = np.asarray(level, dtype=float) - self.top_total + self._tool_in_level
-        return self._unmapped(self.contour.invert(values))
+        return self.shown(self._unmapped(self.contour.invert(values)))
+
+    def shown(self, program: Array) -> Array:
+        """Programmed values inside the ranges of modulo axes; directions are no positions."""
+        active = self.kinematics
+        return self.modulo.wrap(program, () if active is None else active.model.orientation)
 
     def suppressed(self, kinds: frozenset[str]) -> Coordinates:
         """The same chain without the offsets of these kinds in any level; `tool` takes the tool
@@ -327,6 +346,8 @@ class Coordinates:
             yield "#TLC", self.length_step.origin, lambda x: self._solved(x, near)
         if self.kinematics is not None:
             yield "kinematics", self.kinematics.origin, lambda x: self._solved(x, near)
+        if self.modulo.ranges:
+            yield "modulo", None, self.modulo.wrap
 
 
 def _main_axes(values: Array) -> Array:

@@ -91,3 +91,38 @@ class ActiveTool:
 
 
 NO_TOOL = ActiveTool()
+
+
+@dataclass(frozen=True)
+class ModuloAxes:
+    """Axes whose positions are shown inside a range, as the control does after every motion.
+
+    ranges: (channel index, low, high) in degrees, high not included.
+    Source: P-AXIS-00015, P-AXIS-00126, P-AXIS-00127.
+    """
+
+    ranges: tuple[tuple[int, float, float], ...] = ()
+
+    def wrap(self, values: Array, but: tuple[int, ...] = ()) -> Array:
+        """Values (..., n) with these axes brought into their range, except the columns `but`."""
+        wanted = [r for r in self.ranges if r[0] not in but]
+        if not wanted:
+            return values
+        result = np.array(values, dtype=float)
+        for column, low, high in wanted:
+            own = result[..., column]
+            turned = low + np.mod(own - low, high - low)
+            turned = np.where(turned >= high, low, turned)
+            result[..., column] = np.where((own >= low) & (own < high), own, turned)
+        return result
+
+    def whole_turns(self, difference: Array) -> Array:
+        """The full turns in differences (..., n) of axis values; 0 for other axes."""
+        result = np.zeros_like(difference)
+        for column, low, high in self.ranges:
+            turn = high - low
+            result[..., column] = turn * np.round(difference[..., column] / turn)
+        return result
+
+
+NO_MODULO = ModuloAxes()

@@ -136,6 +136,7 @@ class ChannelSettings:
     tool_orientation_mode: int = 0  # P-CHAN-00189 tool_ori_cs.mode
     ecs_axis: str = ""  # P-CHAN-00031 kind_of_2nd_ecs_ax
     ecs_plane: str = ""  # P-CHAN-00050 mach_plane_of_2nd_ecs_ax
+    modulo_shortest: bool = False  # P-CHAN-00346 enable_mod_axis_always_shortest_way
     centre_shift: float = 2.0  # P-CHAN-00059 mittelpkt_diff, mm
     centre_shift_share: float = 0.05  # P-CHAN-00060 mittelpkt_faktor, of the radius
     radius_difference: float = 0.005  # P-CHAN-00171 max_radius_diff_circle, mm

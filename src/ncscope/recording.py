@@ -27,19 +27,25 @@ class _Part:
     """A stretch with what lies between its rows.
 
     start: programmed values before every row (m, n), or before the first one (n,) where each
-    row begins at the end of the one before. spans: None where the lines are plain blocks.
+    row begins at the end of the one before. ways: row -> programmed values where its path leads
+    before modulo axes are wrapped. spans: None where the lines are plain blocks.
     """
 
     stretch: Stretch
     start: Array
     arcs: Mapping[int, Arc] = field(default_factory=dict)
     spans: list[Span] | None = None
+    ways: Mapping[int, Array] = field(default_factory=dict)
 
     def paths(self) -> Paths:
         start = self.start
         if start.ndim == 1:
             start = np.concatenate([start[None], self.stretch.pcs[:-1]])
-        return Paths(start, self.stretch.pcs, self.arcs)
+        stop = self.stretch.pcs
+        if self.ways:
+            stop = stop.copy()
+            stop[list(self.ways)] = list(self.ways.values())
+        return Paths(start, stop, self.arcs)
 
     def last(self, source: Source) -> tuple[Move, Coordinates]:
         s = self.stretch
@@ -56,6 +62,7 @@ class _Part:
             span,
             None,
             self.arcs.get(len(s) - 1),
+            self.ways.get(len(s) - 1),
         )
         return move, s.coordinates
 
@@ -149,7 +156,8 @@ class Recorder:
         moves = self._moves
         arcs = {i: m.arc for i, m in enumerate(moves) if m.arc is not None}
         starts = np.array([m.start for m in moves], dtype=float)
-        self._parts.append(_Part(self._stretch(), starts, arcs, [m.span for m in moves]))
+        ways = {i: m.way for i, m in enumerate(moves) if m.way is not None}
+        self._parts.append(_Part(self._stretch(), starts, arcs, [m.span for m in moves], ways))
         self._open, self._moves = None, []
 
     def complaints(self) -> list[Diagnostic]:

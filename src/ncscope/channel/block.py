@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ncscope.channel import calls, macros, tools
+from ncscope.channel import calls, macros, modulo, tools
 from ncscope.channel.commands import COMMANDS, LAST, point_to_point
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
@@ -137,8 +137,7 @@ def _collect(draft: Draft, collected: Words, words: tuple[tree.Word, ...], depth
                 _collect_address(draft, collected, word)
             case tree.AxisWord():
                 axis = collect_axes(draft, collected.axes, word)
-                if word.sign:
-                    collected.signed.add(axis)
+                modulo.keep_sign(draft, collected, axis, word)
             case tree.SpindleWord():
                 draft.warn("N2002", word.span, f"spindle word {word.name} does not move an axis")
             case tree.Call():

@@ -133,10 +133,13 @@ class Draft:
         coordinates: Coordinates | None = None,
         arc: Arc | None = None,
         direction: Span | None = None,
+        way: np.ndarray | None = None,
     ) -> None:
         """A motion to programmed values (n,), mm and degrees; `coordinates` for this one alone.
 
         direction: the word that gives the tool direction, blamed where that cannot be reached.
+        way: programmed values at the end before modulo axes are wrapped, None where that is
+        `program`.
         """
         state = self.state
         chain = coordinates or state.coordinates
@@ -158,6 +161,15 @@ class Draft:
         modes = state.modal
         self.moves.append(
             Move(
-                modes.motion, modes.feed, start, program, axes, state.block, span, coordinates, arc
+                modes.motion,
+                modes.feed,
+                start,
+                program,
+                axes,
+                state.block,
+                span,
+                coordinates,
+                arc,
+                way,
             )
         )

@@ -10,6 +10,7 @@ import numpy as np
 
 from ncscope.channel import offsets
 from ncscope.channel.given import GivenRows
+from ncscope.channel.modulo import modulo_axes
 from ncscope.channel.state import Kinematics, LengthAxis, Measuring, Position, State, Stored
 from ncscope.coordinates import Coordinates
 from ncscope.machine import Machine, OffsetRecord
@@ -33,7 +34,7 @@ def start_state(
     zeros = np.zeros(n)
     state = State(
         axes=machine.axes,
-        coordinates=Coordinates(n),
+        coordinates=Coordinates(n, modulo=modulo_axes(machine.axes)),
         position=Position(zeros, zeros),
         kinematics=_kinematics(machine),
         zero_offsets=machine.zero_offsets,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ncscope.channel import circle, measuring
+from ncscope.channel import circle, measuring, modulo
 from ncscope.channel.draft import Draft
 from ncscope.diagnostics import Span
 from ncscope.frames import Array
@@ -32,20 +32,20 @@ def motion(draft: Draft, words: Words) -> None:
     if circular:
         _travel_arc(draft, words, centre)
     elif words.axes:
-        target = _target(draft, words)
+        target, way = _target(draft, words)
         span = next(iter(words.axes.values()))[1]
         _check_feed(draft, span)
-        draft.move_to(target, span, direction=_direction_word(draft, words))
+        draft.move_to(target, span, direction=_direction_word(draft, words), way=way)
     words.axes.clear()
     return None
 
 
 def _travel_arc(draft: Draft, words: Words, centre: dict[int, circle.Word]) -> None:
     span = next(iter((*words.axes.values(), *centre.values())))[1]
-    target = _target(draft, words)
+    target, way = _target(draft, words)
     path = circle.arc(draft, words, centre, target, span)
     _check_feed(draft, span)
-    draft.move_to(target, span, arc=path, direction=_direction_word(draft, words))
+    draft.move_to(target, span, arc=path, direction=_direction_word(draft, words), way=way)
 
 
 def _direction_word(draft: Draft, words: Words) -> Span | None:
@@ -61,14 +61,19 @@ def _ignored(draft: Draft, centre: dict[int, circle.Word]) -> None:
         draft.warn("20048", span, f"{letter} has no effect in a linear block")
 
 
-def _target(draft: Draft, words: Words) -> Array:
-    """Programmed values (n,) at the end of the block."""
-    program = np.array(draft.state.position.program)
+def _target(draft: Draft, words: Words) -> tuple[Array, Array | None]:
+    """Programmed values (n,) at the end of the block, and where the way there leads without
+    wrapping; None where that is the same."""
+    way = np.array(draft.state.position.program)
     for axis, (value, _span) in words.axes.items():
+        turned = modulo.travel(draft, words, axis)
         length = draft.length(axis, value)
-        program[axis] = length if draft.modes.absolute else program[axis] + length
-        _check_modulo(draft, axis, words, float(program[axis]))
-    return program
+        if turned is not None:
+            way[axis] += turned
+        else:
+            way[axis] = length if draft.modes.absolute else way[axis] + length
+    program = draft.state.coordinates.shown(way)
+    return program, None if np.array_equal(program, way) else way
 
 
 def _check_feed(draft: Draft, span: Span) -> None:
@@ -86,18 +91,3 @@ def _measure(draft: Draft, words: Words) -> None:
     motion(draft, words)
     draft.modal(motion=modal)
     measuring.record(draft, axes, run)
-
-
-def _check_modulo(draft: Draft, axis: int, words: Words, value: float) -> None:
-    """On a modulo axis a sign is a turning direction, and values wrap; neither is modelled, so
-    only values for which it makes no difference pass."""
-    limits = draft.state.axes[axis].modulo_range
-    active = draft.state.coordinates.kinematics
-    in_space = active is not None and axis in active.model.orientation
-    if limits is None or in_space:
-        return
-    signed = draft.modes.absolute and axis in words.signed
-    if signed or not limits[0] <= value < limits[1]:
-        name = draft.state.axes[axis].name
-        what = "a sign" if signed else f"a value outside {limits[0]:g} to {limits[1]:g} degrees"
-        draft.later(words.axes[axis][1], f"{what} on the modulo axis {name}")

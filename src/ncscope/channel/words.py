@@ -15,12 +15,15 @@ PRESET_NAMES = ("PSET", "PRESET")
 
 @dataclass
 class Words:
-    """The words of one block, each evaluated, waiting for the rule that takes it."""
+    """The words of one block, each evaluated, waiting for the rule that takes it.
+
+    signed: of a modulo axis, the sign behind its letter and the value without it.
+    """
 
     gfunctions: dict[int, tree.GWord] = field(default_factory=dict)
     values: dict[int, float] = field(default_factory=dict)
     axes: dict[int, tuple[float, Span]] = field(default_factory=dict)
-    signed: set[int] = field(default_factory=set)
+    signed: dict[int, tuple[str, float]] = field(default_factory=dict)
     addresses: dict[str, tuple[float, Span]] = field(default_factory=dict)
     mfunctions: dict[int, Span] = field(default_factory=dict)
     tool_writes: dict[str, Span] = field(default_factory=dict)

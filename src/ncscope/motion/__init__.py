@@ -28,7 +28,8 @@ class Move:
     start, program, axes: (n,) by channel axis, mm and degrees: programmed values before and after
     the motion, axis positions after it. block: the N number, None without.
     coordinates: the chain of this motion alone (#SUPPRESS OFFSETS), None for that of the channel.
-    arc: the path in the plane, None for a straight one.
+    arc: the path in the plane, None for a straight one. way: (n,) where the path leads before
+    modulo axes are wrapped into their ranges, None where that is `program`.
     """
 
     motion: str
@@ -40,3 +41,9 @@ class Move:
     span: Span
     coordinates: Coordinates | None = None
     arc: Arc | None = None
+    way: Array | None = None
+
+    @property
+    def stop(self) -> Array:
+        """(n,) programmed values where the path ends, modulo axes not wrapped."""
+        return self.program if self.way is None else self.way

@@ -59,6 +59,9 @@ def join(first: Move, second: Move, corner: Corner, chain: Coordinates) -> tuple
     Two moves that pass into each other without a corner stay as they are.
     Raises CornerError where the insertion does not fit.
     """
+    if first.way is not None or second.way is not None:
+        what = "a chamfer or rounding at a turn over the end of a modulo axis is not supported yet"
+        raise CornerError("N2001", what)
     if corner.rounding:
         found = _rounding(first, second, corner, chain)
         if found is None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -32,7 +32,8 @@ _PROBES = np.array([0.25, 0.5, 0.75])
 
 @dataclass(frozen=True)
 class Paths:
-    """m paths in programmed values. start, end: (m, n) mm and degrees. arcs: row -> its arc."""
+    """m paths in programmed values. start, end: (m, n) mm and degrees, modulo axes not wrapped.
+    arcs: row -> its arc."""
 
     start: Array
     end: Array
@@ -97,7 +98,8 @@ def needs_points(coordinates: Coordinates, paths: Paths) -> bool:
 
 def _bent(coordinates: Coordinates) -> bool:
     """Whether straight lines of the program are none of the axes."""
-    return coordinates.kinematics is not None or coordinates.program_step is not None
+    steps = coordinates.kinematics, coordinates.program_step, coordinates.length_step
+    return any(step is not None for step in steps)
 
 
 def sample(
@@ -126,7 +128,8 @@ def sample(
             coarse |= set(open_.row.tolist())
         else:
             open_ = open_.halved(coordinates, paths)
-    return _ordered([*done, open_], acs, tuple(sorted(coarse)))
+    points = _ordered([*done, open_], acs, tuple(sorted(coarse)))
+    return replace(points, pcs=coordinates.shown(points.pcs))
 
 
 @dataclass(frozen=True)
@@ -233,9 +236,9 @@ def _tips(coordinates: Coordinates, acs: Array) -> Array:
 
 
 def _whole_turns(coordinates: Coordinates, difference: Array) -> Array:
-    """Full turns in a difference of axis values, where the kinematics computes the angles: they
-    are only defined up to full turns then."""
-    result = np.zeros_like(difference)
+    """Full turns in a difference of axis values: of modulo axes, and of angles that the
+    kinematics computes, which are only defined up to full turns."""
+    result = coordinates.modulo.whole_turns(difference)
     active = coordinates.kinematics
     if active is not None and active.model.orientation:
         result[:, 3:] = 360.0 * np.round(difference[:, 3:] / 360.0)

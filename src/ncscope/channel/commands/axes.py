@@ -10,6 +10,7 @@ import numpy as np
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number
+from ncscope.channel.modulo import modulo_axes
 from ncscope.channel.state import Position, State
 from ncscope.coordinates import Level, Offset
 from ncscope.language import tree
@@ -129,7 +130,13 @@ def with_axes(state: State, axes: tuple[Axis, ...]) -> State:
     position = np.array([parked.get(axis.number, 0.0) for axis in axes])
     levels = tuple(_moved_level(level, sources) for level in state.coordinates.levels)
     contour = state.coordinates.contour.moved(sources)
-    coordinates = replace(state.coordinates, axis_count=len(axes), levels=levels, contour=contour)
+    coordinates = replace(
+        state.coordinates,
+        axis_count=len(axes),
+        levels=levels,
+        contour=contour,
+        modulo=modulo_axes(axes),
+    )
     state = replace(
         state,
         scale_factors=_moved_factors(state.scale_factors, sources),

@@ -36,7 +36,7 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     held = state.coordinates
     suspended = Suspended(held, state.zero_index, ex_tool)
     draft.state = replace(state, suspended=suspended, zero_index=0)
-    bare = Coordinates(held.axis_count, contour=held.contour.without_turn())
+    bare = Coordinates(held.axis_count, contour=held.contour.without_turn(), modulo=held.modulo)
     draft.set_coordinates(bare, command.span)
 
 
