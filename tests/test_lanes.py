@@ -1,5 +1,6 @@
 """Both lanes have one meaning: the same moves, diagnostics and end, however a program is cut."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,15 @@ CA_HEAD, _ = ncscope.load_machine(MACHINES / "ca_head")
 FLAT = Machine(
     axes=(Axis("X", 1), Axis("Y", 2), Axis("Z", 3), Axis("C", 4, rotary=True), Axis("A", 5, True)),
     zero_offsets=ZeroOffsets({1: OffsetRecord({0: 10.0, 1: -5.5, 4: 30.0})}),
+)
+TURNING = replace(
+    FLAT,
+    axes=(
+        Axis("X", 1, face_turning=True, diameter_absolute=True),
+        *FLAT.axes[1:3],
+        Axis("C", 4, rotary=True, modulo_range=(0.0, 360.0)),
+        FLAT.axes[4],
+    ),
 )
 
 NUMBER = st.one_of(
@@ -44,6 +54,7 @@ OTHER = st.sampled_from(
         "#CS SELECT [B]", "#CS SELECT [MCS]", "#CS SET [A] [4,5,6]", "#CS TRACK [A] [1,2,3]",
         "#ECS ON", "#ECS OFF", "#BCS ON [K] [0,1,0,0,0,5]", "#BCS OFF",
         "G02 X10 I5 J5", "G03 X1 Y1 R900", "G2", "G3", "G18", "X4 Z2 I3 K4", "G161", "G163=700",
+        "G41", "G40", "G04 2.5", "G04 P1", "G98 X-5", "G51", "G52", "C+-20", "G91 C-700",
         "G301 I0.5", "G302 I0.1", "X5 #RND=0.2", "Y7 #CHF=1",
     ]
 )  # fmt: skip
@@ -74,9 +85,9 @@ def assert_equal(machine, text, **options):
 
 
 @settings(max_examples=300, deadline=None)
-@given(LINES, st.sampled_from(["\n", "\r\n"]), st.booleans())
-def test_lanes_agree_on_mixed_programs(lines, end, last):
-    assert_equal(FLAT, end.join(lines) + (end if last else ""))
+@given(LINES, st.sampled_from(["\n", "\r\n"]), st.booleans(), st.sampled_from([FLAT, TURNING]))
+def test_lanes_agree_on_mixed_programs(lines, end, last, machine):
+    assert_equal(machine, end.join(lines) + (end if last else ""))
 
 
 COMPLETE = "V.G.KIN[91].RTCP = 0\n"

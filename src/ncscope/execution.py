@@ -281,6 +281,8 @@ class _Loop:
         """All plain blocks that follow, in the bulk lane."""
         if not self.bulk or reader.in_area or self.transitions.waiting is not None:
             return
+        if not self.state.modal.plain:
+            return
         from ncscope.channel.bulk import advance
         from ncscope.language.scanner import Scanner
 

@@ -30,6 +30,8 @@ class Axis:
 
     `number` is the logical axis number. `assumed`: no axis list said whether the axis is rotary.
     `modulo_range`: (low, high) in degrees for a modulo axis, else None.
+    `face_turning`: the axis that G51 acts on (P-AXIS-00015); `diameter_absolute` and
+    `diameter_relative`: whether its words are diameters under G90 and G91.
     `limits`: software limits (mm or degrees) of the axis position, None when none are monitored.
     `reference`: position after homing. `measuring`: G100 may measure with it (P-AXIS-00118).
     """
@@ -41,6 +43,9 @@ class Axis:
     modulo_range: tuple[float, float] | None = None
     limits: tuple[float, float] | None = None
     reference: float = 0.0
+    face_turning: bool = False
+    diameter_absolute: bool = False
+    diameter_relative: bool = False
     measuring: bool = True
 
 
@@ -136,6 +141,7 @@ class ChannelSettings:
     tool_orientation_mode: int = 0  # P-CHAN-00189 tool_ori_cs.mode
     ecs_axis: str = ""  # P-CHAN-00031 kind_of_2nd_ecs_ax
     ecs_plane: str = ""  # P-CHAN-00050 mach_plane_of_2nd_ecs_ax
+    offsets_in_diameter: bool = False  # P-CHAN-00091 versch_im_durchm
     modulo_shortest: bool = False  # P-CHAN-00346 enable_mod_axis_always_shortest_way
     centre_shift: float = 2.0  # P-CHAN-00059 mittelpkt_diff, mm
     centre_shift_share: float = 0.05  # P-CHAN-00060 mittelpkt_faktor, of the radius

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ncscope.channel import calls, macros, modulo, tools
+from ncscope.channel import calls, macros, modulo, radius_compensation, tools
 from ncscope.channel.commands import COMMANDS, LAST, point_to_point
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
@@ -106,6 +106,7 @@ def _refuse_axis_commands(draft: Draft, block: tree.Block) -> None:
 
 def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None:
     refuse_inside(draft, command)
+    radius_compensation.refuse(draft, command)
     point_to_point.refuse_inside(draft, command)
     refuse_path_condition(draft, command.name, block.words)
     row = lookup(command.name)

@@ -16,7 +16,7 @@ from ncscope.compilation import compiled
 from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
 from ncscope.language.scanner import PlainRows
-from ncscope.motion import LINEAR, MOTIONS
+from ncscope.motion import MOTIONS
 from ncscope.trajectory import Stretch
 
 
@@ -30,8 +30,6 @@ def advance(state: State, rows: PlainRows, file: str, limit: int) -> tuple[State
     absolute = _filled_codes(rows.absolute[:n], int(state.modal.absolute))
     feed = _filled_feed(state, rows.feed[:n])
     n = _before_warning(state, motion, feed, n)
-    if len(motion) and motion[0] >= LINEAR:  # modal circular motion
-        return state, None
     if n == 0:
         return state, None
     program = np.empty((n, len(state.axes)))

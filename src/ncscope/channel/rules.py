@@ -14,9 +14,12 @@ from ncscope.channel import (
     circle,
     contour,
     corner,
+    diameter,
+    dwell,
     manual,
     measuring,
     offsets,
+    radius_compensation,
     tools,
     travel,
 )
@@ -39,8 +42,8 @@ def _refuse_g(draft: Draft, words: Words) -> None:
         if row.effect == "quiet":
             draft.warn("N2002", word.span, f"G{number:02d} has no effect on positions")
     weighted = [n for n in words.gfunctions if n in WEIGHTED]
-    if weighted or 4 in words.gfunctions:
-        words.axes.clear()  # weights of G130.. or the time of G04, not positions
+    if weighted:
+        words.axes.clear()  # weights of G130.., not positions
 
 
 def _modal(draft: Draft, words: Words) -> None:
@@ -175,8 +178,12 @@ def reject_unused(draft: Draft, words: Words) -> None:
 
 RULES: tuple[Callable[[Draft, Words], None], ...] = (
     _refuse_g,
+    dwell.dwell,
+    radius_compensation.select,
     _modal,
+    dwell.software_limits,
     contour.mirror,
+    diameter.select,
     contour.rotation,
     circle.modes,
     _zero_offset,

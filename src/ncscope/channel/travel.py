@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ncscope.channel import circle, measuring, modulo
+from ncscope.channel import circle, diameter, measuring, modulo
 from ncscope.channel.draft import Draft
 from ncscope.diagnostics import Span
 from ncscope.frames import Array
@@ -65,9 +65,9 @@ def _target(draft: Draft, words: Words) -> tuple[Array, Array | None]:
     """Programmed values (n,) at the end of the block, and where the way there leads without
     wrapping; None where that is the same."""
     way = np.array(draft.state.position.program)
-    for axis, (value, _span) in words.axes.items():
+    for axis, (value, span) in words.axes.items():
         turned = modulo.travel(draft, words, axis)
-        length = draft.length(axis, value)
+        length = diameter.radius(draft, axis, value, span)
         if turned is not None:
             way[axis] += turned
         else:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from ncscope.language.calls import call
 from ncscope.language.cursor import Cursor
+from ncscope.language.functions import FUNCTIONS
 from ncscope.language.groups import groups
 from ncscope.language.terms import (
     close,
@@ -41,6 +42,8 @@ from ncscope.language.tree import (
 )
 from ncscope.language.vocabulary import axis_commands
 
+DWELL = 4
+"""The G function whose value may follow it without an address letter."""
 AXIS_LETTERS = frozenset("ABCQUVWXYZabcquvwxyz")
 _ADDRESSES = frozenset("DEFHIJKRTdefhijkrt")
 AXIS_COMMANDS = axis_commands()
@@ -50,6 +53,8 @@ _SIMPLE = re.compile(
     r"(?=[ \t\0\r]*\Z|[ \t\0\r]+(?!(?:MOD|XOR)(?!\w))[A-Za-z])",
     re.IGNORECASE,
 )
+_SIGNED_DWELL = re.compile(r"[Gg]0*4(?=[ \t\0\r]+[-+])")
+"""G04 -1 is a time, not G3."""
 _LONG_NAME = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*=(?!=)", re.ASCII)
 _AXIS_COMMAND = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*\[[ \t\0\r]*([A-Za-z]\w*)", re.ASCII)
 _ASSIGN = re.compile(r"[ \t\0\r]*([-+*/]?=)(?!=)")
@@ -93,6 +98,8 @@ def _simple(cursor: Cursor, found: re.Match[str]) -> Word:
     if letter in AXIS_LETTERS:
         return AxisWord(letter, number, sign, span)
     if letter in "Gg":
+        if float(digits) == DWELL:
+            return _dwell(cursor, number, found.start())
         return GWord(number, None, None, span)
     if letter in "Mm":
         return MWord(number, (), span)
@@ -191,8 +198,13 @@ def _unknown(cursor: Cursor) -> Exception:
 def _g_word(cursor: Cursor) -> GWord:
     """gword = "G" , expr , [ "=" , expr ] , [ "[" , [ expr ] , { "," , [ expr ] } , "]" ] ;"""
     start = cursor.at
+    signed = cursor.match(_SIGNED_DWELL)
+    if signed is not None:
+        return _dwell(cursor, Number(float(DWELL), cursor.span(start + 1)), start)
     _need_value(cursor)
     number = value(cursor)
+    if isinstance(number, Number) and number.value == DWELL:
+        return _dwell(cursor, number, start)
     content = value(cursor) if cursor.match(_EQUALS) else None
     after, arguments = cursor.at, None
     if cursor.skip() == "[":
@@ -200,6 +212,30 @@ def _g_word(cursor: Cursor) -> GWord:
     else:
         cursor.at = after
     return GWord(number, content, arguments, cursor.span(start))
+
+
+def _dwell(cursor: Cursor, number: Expression, start: int) -> GWord:
+    """dwell = "G04" , [ [ "=" ] , expr ] ;  the time, where what follows is no other word"""
+    after = cursor.at
+    written = cursor.match(_EQUALS) is not None
+    cursor.skip()
+    if written or _starts_time(cursor):
+        return GWord(number, value(cursor), None, cursor.span(start))
+    cursor.at = after
+    return GWord(number, None, None, cursor.span(start))
+
+
+def _starts_time(cursor: Cursor) -> bool:
+    """Whether a value follows, and neither a word nor an assignment."""
+    if not starts_target(cursor):
+        named = cursor.char.isalpha()
+        known = cursor.word().upper() in FUNCTIONS
+        return starts_value(cursor) and (known or not named)
+    start = cursor.at
+    target(cursor)
+    found = cursor.looks_at(_ASSIGN) is None
+    cursor.at = start
+    return found
 
 
 def _places(cursor: Cursor) -> tuple[Expression | None, ...]:

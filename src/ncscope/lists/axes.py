@@ -18,6 +18,7 @@ from ncscope.machine import MAX_CHANNEL_AXES, Axis, is_rotary_name
 UNITS = 10_000.0
 """List units in a millimetre or degree."""
 MODULO_MODE = 0x4
+FACE_TURNING_MODE = 0x40
 SPINDLE_TYPE = 4
 AXIS_TYPES = {"ACHSTYP_TRANSLATOR": 1, "ACHSTYP_ROTATOR": 2, "ACHSTYP_SPINDEL": 4}
 MAX_NAME = 16
@@ -61,6 +62,9 @@ def axis_record(
         rotary=rotary,
         modulo_range=turns,
         limits=_limits(last, turns if rotary else None),
+        face_turning=bool(int(_value(last, "kenngr.achs_mode", 1)) & FACE_TURNING_MODE),
+        diameter_absolute=bool(_value(last, "kenngr.durchm_prog_abs", 0)),
+        diameter_relative=bool(_value(last, "kenngr.durchm_prog_rel", 0)),
         reference=_value(last, "getriebe[0].pos_refpkt", 0) / UNITS,
         measuring=bool(_value(last, "kenngr.messachse", 0)),
     )

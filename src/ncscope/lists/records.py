@@ -47,6 +47,7 @@ SETTINGS_OF_KEYS = {
     "kind_of_2nd_ecs_ax": "ecs_axis",
     "mach_plane_of_2nd_ecs_ax": "ecs_plane",
     "enable_mod_axis_always_shortest_way": "modulo_shortest",
+    "versch_im_durchm": "offsets_in_diameter",
     "mittelpkt_diff": "centre_shift",
     "mittelpkt_faktor": "centre_shift_share",
     "max_radius_diff_circle": "radius_difference",

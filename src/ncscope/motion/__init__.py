@@ -15,8 +15,6 @@ from ncscope.motion.arc import Arc
 
 MOTIONS = ("G00", "G01", "G02", "G03")
 """The path conditions that a move can have."""
-LINEAR = 2
-"""So many of MOTIONS, from the first on, are straight."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ncscope.channel import diameter
 from ncscope.channel.circle import CIRCULAR
 from ncscope.channel.contour import set_contour, turn_off, turn_on
 from ncscope.channel.draft import Draft
@@ -90,8 +91,8 @@ def suppress(draft: Draft, command: tree.HashCommand) -> None:
         draft.later(command.span, "an arc (G02, G03) with #SUPPRESS OFFSETS")
     chain = draft.state.coordinates.suppressed(_kinds(draft, command))
     program = chain.to_program(draft.state.position.axes, near=draft.state.position.program)
-    for axis, (value, _) in words.items():
-        program[axis] = draft.length(axis, value)
+    for axis, (value, span) in words.items():
+        program[axis] = diameter.radius(draft, axis, value, span)
     draft.move_to(program, command.span, chain)
 
 
