@@ -79,6 +79,8 @@ CATALOGUE: dict[str, Entry] = {
     "20671": Entry("error", "#TLC is not allowed while the cutter radius is compensated."),
     "20685": Entry("warning", "G04 has axis words besides the first main axis."),
     "20752": Entry("error", "The time of G04 is out of range."),
+    "20800": Entry("error", "The size of a chamfer or rounding is out of range."),
+    "90008": Entry("error", "The cutter radius compensation begins with an arc."),
     "20802": Entry("error", "A coordinate system changes while the cutter radius is compensated."),
     "20012": Entry("error", "The size of a chamfer or rounding is missing or 0."),
     "20130": Entry("error", "Two chamfers or roundings stand in one block."),

@@ -112,7 +112,9 @@ def test_a_modulo_range_does_not_limit_an_angle_in_space():
     own = machine(COMPLETE)
     turning = replace(own.axes[3], modulo_range=(0.0, 360.0))
     own = replace(own, axes=(*own.axes[:3], turning, own.axes[4]))
-    assert positions("A10\n#TRAFO ON\nC-30 A20", own)[1][3:] == [-30, 20]
+    result = run("#KIN ID [91]\nA10\n#TRAFO ON\nC-30 A20", own)
+    np.testing.assert_allclose(result.pcs[-1, 3:], [-30, 20], atol=1e-9)
+    np.testing.assert_allclose(result.acs[-1, 3:], [330, 20], atol=1e-9)
 
 
 @pytest.mark.parametrize(("turns", "expected"), [(False, [0, 0]), (True, [90, 30])])

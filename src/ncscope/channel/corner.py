@@ -16,7 +16,6 @@ from ncscope.motion.corners import Corner
 if TYPE_CHECKING:
     from ncscope.channel.words import Words
 
-PLANE_AXES = 3
 INSERTED = ("CHR", "CHF", "RND")
 
 
@@ -44,8 +43,10 @@ def stored_size(draft: Draft, words: Words) -> None:
         hint = "write it in a block between two motion blocks"
         draft.fail("N2032", span, f"G{number} cannot stand in a motion block", hint)
     given = words.addresses.pop("I", None)
+    if given is not None and given[0] < 0.0:
+        draft.fail("20800", given[1], f"the size of a chamfer or rounding cannot be {given[0]:g}")
     if given is not None:
-        draft.modal(corner_size=abs(given[0]) * draft.modes.length_factor)
+        draft.modal(corner_size=given[0] * draft.modes.length_factor)
     if not draft.modes.corner_size:
         hint = f"write for example G{number} I5"
         draft.fail("20012", given[1] if given else span, f"G{number} needs its size in I", hint)

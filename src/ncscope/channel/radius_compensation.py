@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ncscope.channel.draft import Draft
+from ncscope.diagnostics import Span
 from ncscope.language import tree
 
 if TYPE_CHECKING:
@@ -37,7 +38,8 @@ def select(draft: Draft, words: Words) -> None:
     for number in (40, 41, 42):
         if number not in words.gfunctions:
             continue
-        draft.modal(compensation=0 if number == 40 else number)
+        begins = number != 40 and not before
+        draft.modal(compensation=0 if number == 40 else number, compensation_begins=begins)
         if number not in (40, before):
             what = "the path of the cutter centre is not computed; the programmed path is shown"
             draft.warn("N2037", words.gfunctions[number].span, what)
@@ -47,6 +49,15 @@ def select(draft: Draft, words: Words) -> None:
         if number in words.gfunctions and number != draft.modes.plane:
             what = f"G{number} changes the plane while G{before} is active"
             draft.fail("20133", words.gfunctions[number].span, what, "write G40 before it")
+
+
+def motion(draft: Draft, circular: bool, span: Span) -> None:
+    """Before a motion: the first one with G41 or G42 has to be straight."""
+    if draft.modes.compensation_begins and circular:
+        what = f"the first motion with G{draft.modes.compensation} is an arc"
+        draft.fail("90008", span, what, "begin the compensation with a straight motion")
+    if draft.modes.compensation_begins:
+        draft.modal(compensation_begins=False)
 
 
 def refuse(draft: Draft, command: tree.HashCommand) -> None:

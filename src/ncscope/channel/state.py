@@ -26,7 +26,8 @@ class Modal:
     motion: `G00` to `G03` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
     feed: mm or degrees per minute. radius: mm, of the arcs without a centre (R, G163), None where
     a centre was given last. centre_absolute: G161. centre_fits: G165. corner_size:
-    mm, the last I of G301 and G302. compensation: 0, 41 or 42. diameter_axis: channel index of
+    mm, the last I of G301 and G302. compensation: 0, 41 or 42;
+    it begins with the next straight motion. diameter_axis: channel index of
     the axis that G51 acts on, None with G52. The start
     values are the built-in ones of P-CHAN-00063.
     """
@@ -42,12 +43,14 @@ class Modal:
     centre_fits: bool = True
     corner_size: float = 0.0
     compensation: int = 0
+    compensation_begins: bool = False
     diameter_axis: int | None = None
 
     @property
     def plain(self) -> bool:
         """Whether axis words are plain positions on straight moves."""
-        return self.motion in ("G00", "G01") and self.diameter_axis is None
+        straight = self.motion in ("G00", "G01")
+        return straight and self.diameter_axis is None and not self.compensation_begins
 
     @property
     def length_factor(self) -> float:

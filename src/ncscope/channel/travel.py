@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ncscope.channel import circle, diameter, measuring, modulo
+from ncscope.channel import circle, diameter, measuring, modulo, radius_compensation
 from ncscope.channel.draft import Draft
 from ncscope.diagnostics import Span
 from ncscope.frames import Array
@@ -34,6 +34,7 @@ def motion(draft: Draft, words: Words) -> None:
     elif words.axes:
         target, way = _target(draft, words)
         span = next(iter(words.axes.values()))[1]
+        radius_compensation.motion(draft, False, span)
         _check_feed(draft, span)
         draft.move_to(target, span, direction=_direction_word(draft, words), way=way)
     words.axes.clear()
@@ -43,6 +44,7 @@ def motion(draft: Draft, words: Words) -> None:
 def _travel_arc(draft: Draft, words: Words, centre: dict[int, circle.Word]) -> None:
     span = next(iter((*words.axes.values(), *centre.values())))[1]
     target, way = _target(draft, words)
+    radius_compensation.motion(draft, True, span)
     path = circle.arc(draft, words, centre, target, span)
     _check_feed(draft, span)
     draft.move_to(target, span, arc=path, direction=_direction_word(draft, words), way=way)

@@ -124,6 +124,10 @@ def _programmed(draft: Draft, ref: Reference) -> float:
 
 
 def _machine_axis(draft: Draft, ref: Reference) -> float:
+    """V.A.ACS.ABS: reading it waits for the axes, which the radius compensation forbids."""
+    if draft.modes.compensation:
+        what = f"{ref.text} cannot be read while G{draft.modes.compensation} is active"
+        draft.fail("20651", ref.span, what, "write G40 before it")
     return draft.shown(ref.axis, float(draft.state.position.axes[ref.axis]))
 
 

@@ -40,8 +40,3 @@ class Move:
     coordinates: Coordinates | None = None
     arc: Arc | None = None
     way: Array | None = None
-
-    @property
-    def stop(self) -> Array:
-        """(n,) programmed values where the path ends, modulo axes not wrapped."""
-        return self.program if self.way is None else self.way
