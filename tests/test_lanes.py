@@ -54,7 +54,8 @@ OTHER = st.sampled_from(
         "#CS SELECT [B]", "#CS SELECT [MCS]", "#CS SET [A] [4,5,6]", "#CS TRACK [A] [1,2,3]",
         "#ECS ON", "#ECS OFF", "#BCS ON [K] [0,1,0,0,0,5]", "#BCS OFF",
         "G02 X10 I5 J5", "G03 X1 Y1 R900", "G2", "G3", "G18", "X4 Z2 I3 K4", "G161", "G163=700",
-        "G41", "G40", "G04 2.5", "G04 P1", "G98 X-5", "G51", "G52", "C+-20", "G91 C-700",
+        "G41", "G40", "G33 Z1 K2", "G63", "G04 2.5", "G04 P1", "G98 X-5",
+        "G51", "G52", "C+-20", "G91 C-700",
         "G301 I0.5", "G302 I0.1", "X5 #RND=0.2", "Y7 #CHF=1",
     ]
 )  # fmt: skip

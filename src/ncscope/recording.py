@@ -50,7 +50,8 @@ class _Part:
     def last(self, source: Source) -> tuple[Move, Coordinates]:
         s = self.stretch
         paths = self.paths()
-        span = self.spans[-1] if self.spans else _line_span(source, int(s.line[-1]))
+        found = self.spans[-1] if self.spans else _line_span(source, s.file, int(s.line[-1]))
+        span = found or Span(source, 0, 0)
         block, feed = int(s.block[-1]), float(s.feed[-1])
         move = Move(
             MOTIONS[s.motion[-1]],
@@ -87,7 +88,7 @@ class Recorder:
         self.stretches: list[Stretch] = []
         self.axes: list[str] = []
         self.places: dict[int, Visit] = {}
-        self.coarse: dict[tuple[str, int], Span] = {}
+        self.coarse: dict[tuple[str, int], Span | None] = {}
         self._source = source
         self._tolerance = tolerance
         self.moves = 0
@@ -162,9 +163,12 @@ class Recorder:
 
     def complaints(self) -> list[Diagnostic]:
         """N4004 for every line with a move whose points are farther apart than the tolerance."""
-        what = "the points of this motion deviate from its path by more than the tolerance"
+        what = "the points of the motion in {}:{} deviate from its path by more than the tolerance"
         hint = "an axis jumps there, or the machine cannot follow: the motion passes a pole"
-        return [diagnostic("N4004", span, what, hint) for span in self.coarse.values()]
+        return [
+            diagnostic("N4004", span, what.format(*place), hint)
+            for place, span in self.coarse.items()
+        ]
 
     def _stretch(self) -> Stretch:
         assert self._open is not None
@@ -198,7 +202,7 @@ class Recorder:
         points = sample(s.coordinates, paths, s.acs, s.start, self._tolerance)
         for index in points.coarse:
             line = int(s.line[index])
-            span = spans[index] if spans else _line_span(self._source, line)
+            span = spans[index] if spans else _line_span(self._source, s.file, line)
             self.coarse.setdefault((s.file, line), span)
         row = points.row
         return replace(
@@ -216,6 +220,9 @@ class Recorder:
         self.axes.extend(a for a in axes if a not in self.axes)
 
 
-def _line_span(source: Source, line: int) -> Span:
+def _line_span(source: Source, file: str, line: int) -> Span | None:
+    """The line of a plain block; None in the file of a subprogram."""
+    if file != source.name:
+        return None
     start = source.line_start(line)
     return Span(source, start, start + len(source.line_text(line)))

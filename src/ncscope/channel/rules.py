@@ -48,7 +48,7 @@ def _refuse_g(draft: Draft, words: Words) -> None:
 
 def _modal(draft: Draft, words: Words) -> None:
     for number in words.gfunctions:
-        if number in (0, 1, 2, 3):
+        if number in (0, 1, 2, 3, 33, 63):
             draft.modal(motion=f"G{number:02d}")
         elif number in (70, 71):
             draft.modal(inch=number == 70)

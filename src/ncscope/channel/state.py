@@ -23,7 +23,7 @@ INCH = 25.4
 class Modal:
     """The modal G functions that change what a word means.
 
-    motion: `G00` to `G03` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
+    motion: `G00` to `G03`, `G33` or `G63` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
     feed: mm or degrees per minute. radius: mm, of the arcs without a centre (R, G163), None where
     a centre was given last. centre_absolute: G161. centre_fits: G165. corner_size:
     mm, the last I of G301 and G302. compensation: 0, 41 or 42;

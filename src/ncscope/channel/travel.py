@@ -18,15 +18,19 @@ if TYPE_CHECKING:
     from ncscope.channel.words import Words
 
 
+THREADS = ("G33", "G63")
+"""Straight motions whose I, J, K are the pitch of a thread."""
+
+
 def motion(draft: Draft, words: Words) -> None:
     """G00 to G03 to the axis words of the block, G100 to its target."""
     if 100 in words.gfunctions:
         return _measure(draft, words)
     circular = draft.modes.motion in circle.CIRCULAR
     centre = circle.centre_words(draft, words)
-    if not circular:
+    if not circular and draft.modes.motion not in THREADS:
         _ignored(draft, centre)
-    elif not words.axes and not centre:
+    elif circular and not words.axes and not centre:
         words.addresses.pop("R", None)  # the radius is stored for the arcs to come
         return None
     if circular:
@@ -80,7 +84,7 @@ def _target(draft: Draft, words: Words) -> tuple[Array, Array | None]:
 
 def _check_feed(draft: Draft, span: Span) -> None:
     modes = draft.modes
-    if modes.motion != "G00" and modes.feed is None and not modes.feed_warned:
+    if modes.motion not in ("G00", "G33") and modes.feed is None and not modes.feed_warned:
         draft.warn("20008", span, "a feed motion is programmed without a feed (F)")
         draft.modal(feed_warned=True)
 

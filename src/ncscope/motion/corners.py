@@ -21,6 +21,7 @@ from ncscope.motion import Move
 from ncscope.motion.arc import Arc, Point
 from ncscope.motion.sampling import Paths
 
+CORNERED = {"G00", "G01", "G02", "G03"}
 STRAIGHT = 1e-9
 """Sine of the angle between two moves that pass into each other without a corner."""
 _SLACK = 1e-9
@@ -59,6 +60,9 @@ def join(first: Move, second: Move, corner: Corner, chain: Coordinates) -> tuple
     Two moves that pass into each other without a corner stay as they are.
     Raises CornerError where the insertion does not fit.
     """
+    if not {first.motion, second.motion} <= CORNERED:
+        what = "a chamfer or rounding stands between motions with G00, G01, G02 or G03 only"
+        raise CornerError("N2032", what)
     if first.way is not None or second.way is not None:
         what = "a chamfer or rounding at a turn over the end of a modulo axis is not supported yet"
         raise CornerError("N2001", what)
