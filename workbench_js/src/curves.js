@@ -6,6 +6,22 @@ import { envelope } from "./decimate.js";
 import { stretchOf } from "./path.js";
 import { setCursor, stopPlaying, store } from "./store.js";
 
+const POLE = "pole distance";
+
+/** Values for uPlot, where a gap is null and not NaN. */
+function gaps(values) {
+  return values.some((v) => v !== v) ? Array.from(values, (v) => (v === v ? v : null)) : values;
+}
+
+/** Neighbouring rows as [first, last]. */
+function joined(rows) {
+  const found = [];
+  for (const row of rows) {
+    if (found.length && found.at(-1)[1] === row - 1) found.at(-1)[1] = row; else found.push([row, row]);
+  }
+  return found;
+}
+
 export class Curves {
   constructor(host, names) {
     this.host = host;
@@ -22,6 +38,7 @@ export class Curves {
     const { path } = store;
     this.from = 0;
     this.to = path.moves;
+    this.hasPole = path.moves > 0 && path.pole.some((v) => v === v);
     this.plot?.destroy();
     this.plot = null;
     this.showNames();
@@ -40,7 +57,15 @@ export class Curves {
       } }),
       el("i", { style: `background:${AXIS_COLOURS[i % AXIS_COLOURS.length]}` }), name,
       machine.find((a) => a.name === name)?.rotary ? el("span", { class: "nc-quiet" }, "°") : null,
-    )));
+    )), this.hasPole ? this.poleName() : null);
+  }
+
+  poleName() {
+    return el("label", { class: "nc-axis-name", title: "degrees between the tool and its singular direction" },
+      el("input", { type: "checkbox", checked: !this.hidden.has(POLE), onchange: (event) => {
+        if (event.target.checked) this.hidden.delete(POLE); else this.hidden.add(POLE);
+        this.take();
+      } }), el("i", { class: "nc-dashed" }), "pole");
   }
 
   isRotary(name) { return store.result?.machine.axes.find((a) => a.name === name)?.rotary ?? /^[ABC]/.test(name); }
@@ -55,6 +80,9 @@ export class Curves {
       label: name, scale: this.isRotary(name) ? "deg" : "mm", stroke: AXIS_COLOURS[i % AXIS_COLOURS.length],
       width: 1.25, points: { show: false }, show: !this.hidden.has(name),
     }));
+    if (this.hasPole) {
+      series.push({ label: POLE, scale: "deg", stroke: colour("quiet"), width: 1, dash: [3, 3], points: { show: false }, show: !this.hidden.has(POLE) });
+    }
     const used = new Set(series.filter((s) => s.show).map((s) => s.scale));
     return {
       width: this.host.clientWidth, height: Math.max(60, this.host.clientHeight), legend: { show: false },
@@ -65,7 +93,7 @@ export class Curves {
         { stroke: text, grid, ticks: grid, font: "11px system-ui, sans-serif", size: 28 },
         ...(used.has("mm") ? [axis("mm", 3, "")] : []), ...(used.has("deg") ? [axis("deg", 1, "°")] : []),
       ],
-      hooks: { ready: [(plot) => this.watch(plot)], draw: [(plot) => this.drawLimits(plot)] },
+      hooks: { ready: [(plot) => this.watch(plot)], drawClear: [(plot) => this.drawEvents(plot)], draw: [(plot) => this.drawLimits(plot)] },
     };
   }
 
@@ -86,7 +114,8 @@ export class Curves {
       x ??= own;
       return y;
     });
-    return [x, ...columns];
+    if (this.hasPole) columns.push(envelope(path.pole, 1, 0, (i) => Math.max(0, i - 1), this.from, this.to + 1, pixels)[1]);
+    return [x, ...columns.map(gaps)];
   }
 
   watch(plot) {
@@ -138,6 +167,23 @@ export class Curves {
         ctx.stroke();
       }
     });
+    ctx.restore();
+  }
+
+  /** Bands behind the curves: blocks beyond a travel limit, swings at the pole, turned-over axes. */
+  drawEvents(plot) {
+    const { ctx, bbox } = plot, { limits = [], swings = [], wraps = [] } = store.result?.events ?? {};
+    const bands = (shade, rows) => {
+      ctx.fillStyle = shade;
+      for (const [first, last] of rows) {
+        if (last + 1 < this.from || first > this.to) continue;
+        const left = Math.max(bbox.left, plot.valToPos(first, "x", true)), right = Math.min(bbox.left + bbox.width, plot.valToPos(last + 1, "x", true));
+        ctx.fillRect(left, bbox.top, Math.max(2, right - left), bbox.height);
+      }
+    };
+    ctx.save();
+    bands(colour("band-limit"), limits.flatMap(({ rows }) => joined(rows)));
+    bands(colour("band-pole"), [...swings.map((s) => [s.row, s.last]), ...wraps.map((w) => [w.row, w.row])]);
     ctx.restore();
   }
 

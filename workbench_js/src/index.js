@@ -5,6 +5,7 @@ import { Code } from "./code.js";
 import { Display } from "./display.js";
 import { el } from "./dom.js";
 import { watchKeys } from "./keys.js";
+import { Jog } from "./jog.js";
 import { Messages } from "./messages.js";
 import { Scene } from "./scene.js";
 import { Status } from "./status.js";
@@ -12,7 +13,7 @@ import { receiveState, startSession, store } from "./store.js";
 import style from "./style.css";
 import { Timeline } from "./timeline.js";
 
-const PANES = { code: Code, scene: Scene, display: Display, timeline: Timeline, messages: Messages, status: Status };
+const PANES = { code: Code, scene: Scene, display: Display, timeline: Timeline, messages: Messages, jog: Jog, status: Status };
 
 document.head.append(el("style", {}, uPlotStyle, style));
 const mounted = {};

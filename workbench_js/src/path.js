@@ -24,7 +24,7 @@ export function unpack(buffer) {
 
 export const EMPTY = {
   moves: 0, stretches: 0, axisNames: [], axes: new Float32Array(0), files: [], systems: [], origin: [0, 0, 0], low: [0, 0, 0],
-  high: [0, 0, 0], point: new Float32Array(0), time: new Float64Array(0),
+  high: [0, 0, 0], point: new Float32Array(0), time: new Float64Array(0), pole: new Float32Array(0),
   line: new Uint32Array(0), motion: new Uint8Array(0), stretch_first: new Uint32Array(0),
   stretch_file: new Uint16Array(0), stretch_system: new Uint16Array(0),
   stretch_model: new Int32Array(0), stretch_length: new Float32Array(0),

@@ -2,7 +2,9 @@
 
 import * as THREE from "three";
 import { AXIS_COLOURS as AXIS, button, colour, el, fill, onTheme } from "./dom.js";
+import { tool } from "./chain.js";
 import { release } from "./labels.js";
+import { MachineModel, setMatrix } from "./machine_model.js";
 import { poseAt } from "./path.js";
 import { on, rowOf, selectRow, stopPlaying, store } from "./store.js";
 import { ToolPath } from "./tool_path.js";
@@ -11,6 +13,7 @@ import { View } from "./view.js";
 
 const BUDGET = { software: 60_000, hardware: 1_500_000 };
 const REACH = 9;
+const FRAMES = [["machine", "machine stands"], ["workpiece", "workpiece stands"], ["hidden", "path only"]];
 
 export class Scene {
   constructor(host) {
@@ -24,15 +27,19 @@ export class Scene {
     if (!this.view) return;
     this.world = new THREE.Group();
     this.view.scene.add(this.world);
+    this.workpiece = new THREE.Group();
+    this.world.add(this.workpiece);
     this.tip = tipMark();
-    this.world.add(this.tip);
+    this.workpiece.add(this.tip);
+    this.frame = null;
     this.fillBar();
     this.ends = [
       on("result", ({ sameProgram }) => this.takePath(sameProgram)),
       on("cursor", () => this.moveCursor()),
       on("place", () => this.mark()),
+      on("jog", () => this.moveCursor()),
       on("block", () => this.takeSystems()),
-      onTheme(() => { this.paint(); this.takeSystems(); this.mark(); }),
+      onTheme(() => { this.dropMachine(); this.paint(); this.takeSystems(); this.moveCursor(); }),
     ];
     if (store.revision) { this.takePath(false); this.takeSystems(); }
   }
@@ -56,9 +63,13 @@ export class Scene {
       this.mode = this.colours.value;
       this.paint();
     } });
+    this.frames = el("select", { class: "nc-select", "aria-label": "machine", onchange: () => {
+      this.frame = this.frames.value;
+      this.moveCursor();
+    } }, FRAMES.map(([value, text]) => el("option", { value }, text)));
     fill(this.bar,
       side("iso", "iso", "0"), side("top", "top", "1"), side("front", "front", "2"), side("right", "right", "3"),
-      button("fit", "fit the path into the view (F)", () => this.view.fit(this.sphere())), this.lens, this.colours,
+      button("path", "fit the path into the view (F)", () => this.view.fit(this.pathSphere())), button("all", "fit path and machine into the view (A)", () => this.view.fit(this.sphere())), this.lens, this.colours, this.frames,
     );
     this.fillColours();
   }
@@ -80,19 +91,30 @@ export class Scene {
     this.path = new ToolPath(store.path);
     this.path.group.position.set(...store.path.origin);
     this.world.position.set(...store.path.origin.map((v) => -v));
-    this.world.add(this.path.group);
+    this.workpiece.add(this.path.group);
     this.fillColours();
     this.paint();
     this.detail(false);
+    this.dropMachine();
+    this.frame ??= store.result.machine.kinematics.length ? "machine" : "hidden";
+    this.frames.value = this.frame;
     this.moveCursor();
     if (!keepView) this.view.fit(this.sphere());
     this.view.draw();
   }
 
+  /** What fits into the view: the path, and the machine where it is shown. */
   sphere() {
-    const radius = Math.max(this.path?.sphere.radius ?? 50, 1);
-    return new THREE.Sphere(new THREE.Vector3(), radius * 1.1);
+    const found = this.pathSphere();
+    if (!this.machine) return found;
+    this.world.updateMatrixWorld(true);
+    const box = new THREE.Box3().setFromObject(this.machine.root);
+    return found.union(box.getBoundingSphere(new THREE.Sphere()).set(box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3()).length() * 0.4));
   }
+
+  pathSphere() { return new THREE.Sphere(new THREE.Vector3(), this.radius() * 1.1); }
+
+  radius() { return Math.max(this.path?.sphere.radius ?? 50, 1); }
 
   paint() {
     this.path?.paint(this.mode);
@@ -123,8 +145,8 @@ export class Scene {
     this.systems = null;
     const found = store.block?.systems ?? [];
     if (found.length) {
-      this.systems = triads(found, this.sphere().radius * 0.22);
-      this.world.add(this.systems);
+      this.systems = triads(found, this.radius() * 0.24);
+      this.workpiece.add(this.systems);
     }
     this.view.draw();
   }
@@ -139,8 +161,64 @@ export class Scene {
     const pose = poseAt(store.path, store.cursor);
     this.tip.visible = pose !== null;
     if (pose) this.tip.position.set(...pose.tip.map((v, k) => v + store.path.origin[k]));
+    this.moveMachine(pose);
     if (store.playing !== this.wasPlaying) { this.wasPlaying = store.playing; this.detail(false); }
     this.mark();
+  }
+
+  // --- the machine -----------------------------------------------------------------------------
+
+  dropMachine() {
+    this.machine?.dispose();
+    this.machine = null;
+  }
+
+  moveMachine(pose) {
+    const shown = this.frame !== "hidden" && store.result;
+    if (!shown) {
+      this.dropMachine();
+      setMatrix(this.workpiece, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]);
+      return;
+    }
+    const { chain, positions, length } = this.stand(pose);
+    const { axes } = store.result.machine;
+    if (this.machine?.given !== chain) {
+      this.dropMachine();
+      this.machine = new MachineModel(chain, axes, store.path, this.ranges(), this.machineSize(chain));
+      this.machine.given = chain;
+      this.world.add(this.machine.root);
+    }
+    this.machine.setLength(length);
+    setMatrix(this.workpiece, this.machine.move(positions, this.frame === "machine"));
+    if (store.jog) {
+      this.tip.position.set(...tool(this.machine.chain, positions, length).tip);
+      this.tip.visible = true;
+    }
+  }
+
+  /** The chain, axis positions by channel index and tool length to show: of the path or jogged. */
+  stand(pose) {
+    const { machine, models } = store.result;
+    const configured = (id) => machine.kinematics.find((k) => k.id === id) ?? null;
+    if (store.jog) return { chain: configured(store.jog.kinematics), positions: store.jog.axes, length: store.jog.length };
+    const names = store.path.axisNames;
+    const positions = machine.axes.map(({ name }) => (pose ? pose.axes[names.indexOf(name)] : 0) ?? 0);
+    const selected = pose ? models[store.path.stretch_model[pose.stretch]] : null;
+    const chain = selected ?? configured(machine.default) ?? machine.kinematics[0] ?? null;
+    return { chain, positions, length: pose ? store.path.stretch_length[pose.stretch] : 0 };
+  }
+
+  /** What the path uses of every channel axis. */
+  ranges() {
+    const names = store.path.axisNames;
+    return store.result.machine.axes.map(({ name }) => (names.includes(name) && store.path.moves ? this.path.range(names.indexOf(name)) : null));
+  }
+
+  /** Parts as large as suits the path and the distances of the axes, mm. */
+  machineSize(chain) {
+    const places = [chain?.flange ?? [0, 0, 0], ...(chain?.joints ?? []).filter((j) => !j.linear).map((j) => j.point)];
+    const spread = Math.max(...places.flatMap((a) => places.map((b) => Math.hypot(...a.map((v, k) => v - b[k])))));
+    return Math.max(this.radius() * 0.9, spread * 0.5, 1);
   }
 
   click(x, y) {
@@ -154,7 +232,8 @@ export class Scene {
   key(key) {
     const sides = { 0: "iso", 1: "top", 2: "front", 3: "right" };
     if (key in sides) this.view.look(sides[key]);
-    else if (key === "f") this.view.fit(this.sphere());
+    else if (key === "f") this.view.fit(this.pathSphere());
+    else if (key === "a") this.view.fit(this.sphere());
     else if (key === "o") this.toggleLens();
     else return false;
     return true;
@@ -171,6 +250,7 @@ export class Scene {
   dispose() {
     for (const end of this.ends ?? []) end();
     this.path?.dispose();
+    this.dropMachine();
     this.view?.dispose();
   }
 }

@@ -31,7 +31,7 @@ export class ToolPath {
     this.levels = null;
     this.group.add(this.full);
     this.mark = fatLines(4.5);
-    this.others = fatLines(2.5);
+    this.others = fatLines(2);
     this.group.add(this.others, this.mark);
   }
 
@@ -132,7 +132,7 @@ export class ToolPath {
 }
 
 function fatLines(width) {
-  const material = new LineMaterial({ linewidth: width, depthTest: false, transparent: true, opacity: width > 3 ? 1 : 0.55 });
+  const material = new LineMaterial({ linewidth: width, depthTest: false, transparent: true, opacity: width > 3 ? 1 : 0.3 });
   const lines = new LineSegments2(new LineSegmentsGeometry(), material);
   lines.visible = false;
   lines.frustumCulled = false;

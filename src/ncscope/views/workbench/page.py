@@ -17,7 +17,7 @@ KEYS = (
     ("Space", "play and pause"),
     ("PageDown, PageUp", "next and previous run of the line"),
     ("1 2 3 0", "top, front, right, isometric view"),
-    ("F", "fit the path into the view"),
+    ("F, A", "fit the path, or path and machine, into the view"),
     ("O", "orthographic or perspective"),
     ("Ctrl+S", "save the file of the editor"),
     ("Ctrl+F", "search in the editor"),
@@ -123,7 +123,7 @@ def _upper(session: Session) -> None:
             with right.before:
                 Pane("scene", session.key).classes("nc-fill")
             with right.after:
-                _tabs(session, (("display", "Display"),))
+                _tabs(session, (("display", "Display"), ("jog", "Jog")))
 
 
 def _lower(session: Session) -> None:
