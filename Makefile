@@ -8,7 +8,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test check format docs bench workbench-js clean
+.PHONY: demo test check format docs bench workbench-js screenshots bench-workbench clean
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -44,6 +44,14 @@ bench: $(STAMP)
 # The scripts of the workbench: needs node and npm; the result is checked in.
 workbench-js:
 	cd workbench_js && npm ci --no-audit --no-fund && npm run build && npm test
+
+# Pictures of the main states of the workbench, to be looked at: build/screenshots.
+screenshots: $(STAMP)
+	$(BIN)/python tests/workbench/screenshots.py
+
+# Time to the first picture and memory for a program of a million blocks.
+bench-workbench: $(STAMP)
+	$(BIN)/python benchmarks/workbench.py
 
 clean:
 	rm -rf $(VENV) build

@@ -239,6 +239,21 @@ export class Scene {
     return true;
   }
 
+  /** Turns the camera a little about the vertical, as the mouse does: for measurements. */
+  spin(angle) {
+    const { camera, controls } = this.view, axis = new THREE.Vector3(0, 0, 1);
+    camera.position.sub(controls.target).applyAxisAngle(axis, angle).add(controls.target);
+    controls.update();
+  }
+
+  /** The move at a part of the width and height of the view: for measurements. */
+  pick(x, y) {
+    return this.path.pick(this.view.camera, this.view.width, this.view.height, x * this.view.width, y * this.view.height, REACH);
+  }
+
+  /** Moves of the path when the last picture was drawn. */
+  get drawnMoves() { return this.view?.frames && this.path ? this.path.path.moves : 0; }
+
   /** Where a move is on the page: for tests. */
   pixelOf(row, part = 0.5) {
     const pose = poseAt(store.path, row + part);

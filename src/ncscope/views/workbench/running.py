@@ -10,12 +10,13 @@ from pathlib import PurePosixPath
 from ncscope.diagnostics import Diagnostic, Source
 from ncscope.execution import Options, Program, run
 from ncscope.inspection import Inspection, inspect
+from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.lists.check import check_loaded
 from ncscope.lists.document import ListDocument
 from ncscope.lists.files import ListFile, find_lists
 from ncscope.lists.reading import assemble
 from ncscope.loading import subprogram_loader
-from ncscope.machine import Machine
+from ncscope.machine import Axis, Machine
 from ncscope.trajectory import Trajectory
 from ncscope.views.workbench.files import Folder
 
@@ -118,6 +119,25 @@ def _loader(
         return source if text is None else Source(source.name, text)
 
     return shown
+
+
+def warm_up() -> None:
+    """Loads the compiled loops with a small program, so that the first large one need not wait."""
+    turning = [{"type": 2, "orientation": way} for way in ((0, 0, 1), (1, 0, 0))]
+    linear = [{"type": 1, "orientation": way} for way in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    head = KinematicParameters.from_fields(
+        {
+            "zero_orientation": (0, 0, 1),
+            "number_of_axes": 5,
+            "axis": [*linear, *turning],
+            "chain": tuple(range(5)),
+            "programming_mode": 17,
+            "rtcp": 1,
+        }
+    )
+    axes = tuple(Axis(name, i + 1, rotary=i > 2) for i, name in enumerate("XYZCA"))
+    machine = Machine("warm", axes, kinematic_parameters={91: head})
+    run(machine, "#TRAFO [91]\nG1 X1 A5 F100\nX2 C3\n#TRAFO OFF\nX3\nM30\n", Options(bulk=True))
 
 
 class Runner:

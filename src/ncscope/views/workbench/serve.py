@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import secrets
 import socket
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
 from ncscope.views.workbench.files import Folder
 from ncscope.views.workbench.guard import LOOPBACK, Guard
 from ncscope.views.workbench.routes import routes
+from ncscope.views.workbench.running import warm_up
 from ncscope.views.workbench.session import Sessions
 
 GRACE = 1
@@ -58,6 +60,7 @@ def serve(
         Guard(app, port, token, names), log_level="warning", timeout_graceful_shutdown=GRACE,
         server_header=False,
     )  # fmt: skip
+    threading.Thread(target=warm_up, daemon=True).start()
     announce(f"http://{shown}:{port}/?token={token}")
     uvicorn.Server(config).run(sockets=[listener])
 
