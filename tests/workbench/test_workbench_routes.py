@@ -123,14 +123,28 @@ def unpack(content: bytes) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
 def test_path_holds_every_move(page: Page) -> None:
     revision = page.open("part.nc", "head").revision
     header, arrays = unpack(page.get(f"/path/{revision}").content)
-    assert (header["moves"], header["axes"]) == (2, ["X", "Y", "Z", "C", "A"])
-    assert arrays["line"].tolist() == [6, 7]
-    assert arrays["motion"].tolist() == [0, 1]
+    ends = arrays["end"] == 1
+    assert header["axes"] == ["X", "Y", "Z", "C", "A"]
+    assert arrays["line"][ends].tolist() == [6, 7]
+    assert arrays["motion"][ends].tolist() == [0, 1]
     # the tool tips of the README's table: MCS of lines 6 and 7
-    tips = arrays["point"][-2:] + np.array(header["origin"])
+    rows = np.flatnonzero(ends)
+    stretch = np.searchsorted(arrays["stretch_first"], rows, side="right") - 1
+    tips = (arrays["point"] + np.array(header["origin"]))[rows + stretch + 1]
     assert tips == pytest.approx(np.array([[105, 48, 10], [111.1603, 57.3301, 2]]), abs=1e-4)
     assert arrays["axes"][-1] == pytest.approx([131.1087, 20.2798, 93.7212, 30, 20], abs=1e-4)
     assert (np.diff(arrays["time"]) > 0).all()
+
+
+def test_arcs_are_drawn_with_points_and_shown_as_one_move(page: Page, tmp_path: Path) -> None:
+    (tmp_path / "arc.nc").write_text("G00 X10 Y0\nG17 G03 X-10 Y0 I-10 J0 F1000\nM30\n")
+    revision = page.open("arc.nc").revision
+    header, arrays = unpack(page.get(f"/path/{revision}").content)
+    assert arrays["end"].sum() == page.result()["moves"] == 2
+    middle = (arrays["point"] + np.array(header["origin"]))[3:-1]
+    assert len(middle) > 10
+    assert np.hypot(middle[:, 0], middle[:, 1]) == pytest.approx(10.0, abs=1e-4)
+    assert page.get(f"/move/{revision}/1").json()["move"]["index"] == 1
 
 
 def test_playback_takes_the_time_of_the_feed(page: Page, tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import { AXIS_COLOURS, colour, el, fill, onTheme } from "./dom.js";
 import { envelope } from "./decimate.js";
-import { stretchOf } from "./path.js";
+import { cursorOfRows, endRow, stretchOf } from "./path.js";
 import { setCursor, stopPlaying, store } from "./store.js";
 
 const POLE = "pole distance";
@@ -108,15 +108,19 @@ export class Curves {
       if (path.stretch_first[stretch] > i || (stretch + 1 < path.stretches && path.stretch_first[stretch + 1] <= i)) stretch = stretchOf(path, i);
       return i + stretch + 1;
     };
+    const from = this.rowsBefore(this.from), to = this.rowsBefore(this.to) + 1;
     let x = null;
     const columns = path.axisNames.map((_, column) => {
-      const [own, y] = envelope(path.axes, n, column, rowIn, this.from, this.to + 1, pixels);
-      x ??= own;
+      const [own, y] = envelope(path.axes, n, column, rowIn, from, to, pixels);
+      x ??= path.ends ? own.map((rows) => cursorOfRows(path, rows)) : own;
       return y;
     });
-    if (this.hasPole) columns.push(envelope(path.pole, 1, 0, (i) => Math.max(0, i - 1), this.from, this.to + 1, pixels)[1]);
+    if (this.hasPole) columns.push(envelope(path.pole, 1, 0, (i) => Math.max(0, i - 1), from, to, pixels)[1]);
     return [x, ...columns.map(gaps)];
   }
+
+  /** Rows of the path before a number of moves is done. */
+  rowsBefore(moves) { return moves ? endRow(store.path, Math.min(store.path.moves, moves) - 1) + 1 : 0; }
 
   watch(plot) {
     const at = (event) => plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x");

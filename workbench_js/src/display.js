@@ -44,9 +44,9 @@ export class Display {
     const list = el("select", { class: "nc-select", "aria-label": "run of the line", onchange: () => selectRow(Number(list.value), "run") });
     const first = Math.max(0, Math.min(at - MOST_RUNS / 2, count - MOST_RUNS));
     for (let i = first; i < Math.min(count, first + MOST_RUNS); i++) {
-      list.append(el("option", { value: store.runs[i], selected: i === at }, `run ${i + 1}: move ${store.runs[i] + 1}`));
+      list.append(el("option", { value: store.runs[i], selected: i === at }, `run ${i + 1}`));
     }
-    fill(this.runs, el("span", {}, `the line ran ${count} times`), button("‹", "previous run (PageUp)", () => stepRun(-1)), list, button("›", "next run (PageDown)", () => stepRun(1)));
+    fill(this.runs, el("span", {}, `ran ${count} times`), button("‹", "previous run (PageUp)", () => stepRun(-1)), list, button("›", "next run (PageDown)", () => stepRun(1)));
   }
 
   dispose() { for (const end of this.ends) end(); }

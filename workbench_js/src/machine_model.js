@@ -200,7 +200,7 @@ export function setMatrix(node, m) {
 
 /** The part of the travel that is drawn: what the path uses and a little more, inside the limits. */
 function rail(axis, used, size) {
-  const low = Math.min(0, used?.[0] ?? 0) - size * 0.25, high = Math.max(0, used?.[1] ?? 0) + size * 0.25;
+  const low = Math.min(0, used?.[0] ?? 0) - size * 0.14, high = Math.max(0, used?.[1] ?? 0) + size * 0.14;
   return axis.limits ? [Math.max(low, Math.min(axis.limits[0], 0)), Math.min(high, Math.max(axis.limits[1], 0))] : [low, high];
 }
 

@@ -5,8 +5,8 @@ import { AXIS_COLOURS as AXIS, button, colour, el, fill, onTheme } from "./dom.j
 import { tool } from "./chain.js";
 import { release } from "./labels.js";
 import { MachineModel, setMatrix } from "./machine_model.js";
-import { poseAt } from "./path.js";
-import { on, rowOf, selectRow, stopPlaying, store } from "./store.js";
+import { moveOf, poseAt } from "./path.js";
+import { goTo, on, rowOf, selectRow, stopPlaying, store } from "./store.js";
 import { ToolPath } from "./tool_path.js";
 import { triads } from "./triads.js";
 import { View } from "./view.js";
@@ -22,7 +22,8 @@ export class Scene {
     this.mode = "motion";
     this.bar = el("div", { class: "nc-scene-bar" });
     this.legend = el("div", { class: "nc-legend" });
-    host.append(this.bar, this.legend);
+    this.problem = el("div", { class: "nc-scene-problem nc-hidden" });
+    host.append(this.bar, this.legend, this.problem);
     this.view = this.makeView(host);
     if (!this.view) return;
     this.world = new THREE.Group();
@@ -39,7 +40,7 @@ export class Scene {
       on("place", () => this.mark()),
       on("jog", () => this.moveCursor()),
       on("block", () => this.takeSystems()),
-      onTheme(() => { this.dropMachine(); this.paint(); this.takeSystems(); this.moveCursor(); }),
+      onTheme(() => { this.dropMachine(); if (this.path) this.path.markOf = this.path.othersOf = null; this.paint(); this.takeSystems(); this.moveCursor(); }),
     ];
     if (store.revision) { this.takePath(false); this.takeSystems(); }
   }
@@ -86,7 +87,17 @@ export class Scene {
 
   // --- what is shown ---------------------------------------------------------------------------
 
+  /** Where and why the program stopped, over the picture of what ran before. */
+  showProblem() {
+    const first = store.result.diagnostics.find((d) => d.error);
+    this.problem.classList.toggle("nc-hidden", store.result.ok && !first);
+    if (!first) { fill(this.problem, "the program was stopped"); return; }
+    const place = first.line ? `${first.file}:${first.line}` : first.file ?? "";
+    fill(this.problem, place && el("button", { type: "button", class: "nc-link", onclick: () => goTo(first.file, first.line) }, place), ` ${first.message}`);
+  }
+
   takePath(keepView) {
+    this.showProblem();
     this.path?.dispose();
     this.path = new ToolPath(store.path);
     this.path.group.position.set(...store.path.origin);
@@ -109,7 +120,7 @@ export class Scene {
     if (!this.machine) return found;
     this.world.updateMatrixWorld(true);
     const box = new THREE.Box3().setFromObject(this.machine.root);
-    return found.union(box.getBoundingSphere(new THREE.Sphere()).set(box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3()).length() * 0.4));
+    return found.union(box.getBoundingSphere(new THREE.Sphere()).set(box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3()).length() * 0.46));
   }
 
   pathSphere() { return new THREE.Sphere(new THREE.Vector3(), this.radius() * 1.1); }
@@ -129,7 +140,7 @@ export class Scene {
       fill(this.legend, store.path.systems.slice(0, 12).map((name, i) => entry(AXIS[i % AXIS.length], name)));
     } else if (this.path && store.path.moves) {
       const [low, high] = this.path.range(store.path.axisNames.indexOf(this.mode));
-      fill(this.legend, entry("#2c4fd8", low.toFixed(2)), entry("#d8402c", high.toFixed(2)));
+      fill(this.legend, el("span", { class: "nc-legend-entry" }, low.toFixed(2), el("i", { class: "nc-gradient" }), high.toFixed(2)));
     }
   }
 
@@ -226,7 +237,7 @@ export class Scene {
     const row = this.path.pick(this.view.camera, this.view.width, this.view.height, x, y, REACH);
     if (row < 0) return;
     stopPlaying();
-    selectRow(row, "scene");
+    selectRow(moveOf(store.path, row), "scene");
   }
 
   key(key) {

@@ -1,7 +1,7 @@
 // What all parts of the page share: the result, and one selection. Parts talk only through it.
 
 import { ask, askBytes, Refused, useSession } from "./api.js";
-import { cursorAt, EMPTY, poseAt, runsOf, runsOfLines, timeAt, unpack } from "./path.js";
+import { cursorAt, EMPTY, endRow, runsOf, runsOfLines, stretchOf, timeAt, unpack } from "./path.js";
 
 const listeners = new Map();
 
@@ -118,8 +118,8 @@ export function selectLine(file, line, by = "") {
 
 /** File and line of a move. */
 export function placeOf(row) {
-  const pose = poseAt(store.path, row + 1);
-  return pose && { file: store.path.files[store.path.stretch_file[pose.stretch]], line: store.path.line[row] };
+  const { path } = store, end = endRow(path, row);
+  return { file: path.files[path.stretch_file[stretchOf(path, end)]], line: path.line[end] };
 }
 
 /** Goes to `file:line`, as origins and diagnostics name it, in the editor and on the path. */

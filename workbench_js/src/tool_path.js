@@ -6,11 +6,11 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { thinned } from "./decimate.js";
 import { AXIS_COLOURS, colour } from "./dom.js";
-import { segments, stretchOf } from "./path.js";
+import { endRow, firstRow, segments } from "./path.js";
 import { chunkBoxes, pick } from "./pick.js";
 
 const GRIDS = [512, 256, 128, 64];
-const MOST_MARKED = 4000;
+const MOST_MARKED = 60;
 
 /** Lines of one path, in coordinates relative to `path.origin`. */
 export class ToolPath {
@@ -19,7 +19,7 @@ export class ToolPath {
     this.group = new THREE.Group();
     this.positions = segments(path);
     this.boxes = chunkBoxes(this.positions);
-    this.colours = new Uint8Array(path.moves * 8);
+    this.colours = new Uint8Array(path.rows * 8);
     const radius = Math.hypot(...path.high.map((v, k) => v - path.low[k])) / 2 || 1;
     this.sphere = new THREE.Sphere(new THREE.Vector3(), radius);
     this.attributes = {
@@ -45,7 +45,7 @@ export class ToolPath {
 
   /** Shows at most about `budget` lines; Infinity for all. */
   detail(budget) {
-    if (this.path.moves <= budget) {
+    if (this.path.rows <= budget) {
       this.show(this.full);
       return;
     }
@@ -74,7 +74,7 @@ export class ToolPath {
       colours[4 * vertex] = r; colours[4 * vertex + 1] = g; colours[4 * vertex + 2] = b; colours[4 * vertex + 3] = 255;
     };
     for (let s = 0; s < path.stretches; s++) {
-      const stop = s + 1 < path.stretches ? path.stretch_first[s + 1] : path.moves;
+      const stop = s + 1 < path.stretches ? path.stretch_first[s + 1] : path.rows;
       for (let i = path.stretch_first[s]; i < stop; i++) {
         if (column >= 0) {
           for (const end of [0, 1]) {
@@ -101,28 +101,27 @@ export class ToolPath {
     return low < high ? [low, high] : [low - 0.5, low + 0.5];
   }
 
-  /** Marks a move, and fainter the other moves of its line. */
-  select(row, runs, width, height) {
-    this.mark.visible = row >= 0 && row < this.path.moves;
-    if (this.mark.visible) setLines(this.mark, this.positions.subarray(6 * row, 6 * row + 6), colour("mark"));
-    this.others.visible = runs.length > 1;
+  /** Marks a move, and fainter the other moves of its line where they are few. */
+  select(move, runs, width, height) {
+    this.mark.visible = move >= 0 && move < this.path.moves;
+    if (this.mark.visible && this.markOf !== move) setLines(this.mark, this.linesOf(move), colour("mark"));
+    this.markOf = move;
+    this.others.visible = runs.length > 1 && runs.length <= MOST_MARKED;
     if (this.others.visible && this.othersOf !== runs) {
-      const count = Math.min(runs.length, MOST_MARKED), out = new Float32Array(6 * count);
-      for (let i = 0; i < count; i++) out.set(this.positions.subarray(6 * runs[i], 6 * runs[i] + 6), 6 * i);
-      setLines(this.others, out, colour("mark"));
+      setLines(this.others, [...runs].flatMap((run) => [...this.linesOf(run)]), colour("mark"));
       this.othersOf = runs;
     }
     for (const lines of [this.mark, this.others]) lines.material.resolution.set(width, height);
   }
 
-  /** The move under a pixel, -1 for none. */
+  linesOf(move) { return this.positions.subarray(6 * firstRow(this.path, move), 6 * endRow(this.path, move) + 6); }
+
+  /** The row under a pixel, -1 for none. */
   pick(camera, width, height, x, y, reach) {
     const matrix = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse)
       .multiply(this.group.matrixWorld);
     return pick(this.positions, this.boxes, matrix.elements, width, height, x, y, reach);
   }
-
-  stretch(row) { return stretchOf(this.path, row); }
 
   dispose() {
     for (const lines of [this.full, ...(this.levels ?? []), this.mark, this.others]) lines.geometry.dispose();

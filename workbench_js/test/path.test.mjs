@@ -1,20 +1,34 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { envelope, thinned } from "../src/decimate.js";
-import { cursorAt, poseAt, runsOf, runsOfLines, segments, stretchOf, timeAt, unpack } from "../src/path.js";
+import { cursorAt, cursorOfRows, moveOf, poseAt, runsOf, runsOfLines, segments, stretchOf, timeAt, unpack, withMoves } from "../src/path.js";
 import { chunkBoxes, pick } from "../src/pick.js";
 
 /** Two stretches of three and two moves; line 5 ran twice, in file a and then in b. */
-function example() {
-  return {
-    moves: 5, stretches: 2, axisNames: ["X", "C"], files: ["a", "b"], origin: [0, 0, 0],
+function example(end = undefined) {
+  return withMoves({
+    end, stretches: 2, axisNames: ["X", "C"], files: ["a", "b"], origin: [0, 0, 0],
     point: Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 2, 1, 0, 9, 9, 9, 9, 8, 9, 7, 8, 9),
     axes: Float32Array.of(0, 0, 1, 10, 1, 20, 2, 40, 2, 40, 3, 40, 5, NaN),
     time: Float64Array.of(1, 2, 4, 5, 7), line: Uint32Array.of(5, 6, 5, 5, 2),
     motion: Uint8Array.of(0, 1, 1, 1, 1), stretch_first: Uint32Array.of(0, 3),
     stretch_file: Uint16Array.of(0, 1),
-  };
+  });
 }
+
+test("points on the way belong to their move", () => {
+  const path = example(Uint8Array.of(0, 0, 1, 0, 1));
+  assert.equal(path.moves, 2);
+  assert.deepEqual([0, 1, 2, 3, 4].map((row) => moveOf(path, row)), [0, 0, 0, 1, 1]);
+  assert.deepEqual(poseAt(path, 1).tip, [2, 1, 0]);
+  assert.deepEqual(poseAt(path, 1 / 3).tip, [1, 0, 0]);
+  assert.deepEqual(poseAt(path, 1.5).tip, [9, 8, 9]);
+  for (const cursor of [0.2, 1, 1.75, 2]) assert.ok(Math.abs(cursorAt(path, timeAt(path, cursor)) - cursor) < 1e-12);
+  assert.equal(cursorOfRows(path, 4), 1.5);
+  const tables = runsOfLines(path);
+  assert.deepEqual([...runsOf(path, tables, "a", 5)], [0]);
+  assert.deepEqual([...runsOf(path, tables, "b", 2)], [1]);
+});
 
 test("a container gives its arrays without a copy", () => {
   const header = new TextEncoder().encode(JSON.stringify({

@@ -61,7 +61,7 @@ def write_csv(out: TextIO, result: Trajectory) -> None:
 
 
 def move_record(result: Trajectory, index: int) -> str:
-    """The line of one move, by its row. Raises IndexError without such a row."""
+    """The line of one move of a run without points on the way, by its row. Raises IndexError."""
     stretch, row = result.locate(index)
     one = slice(row, row + 1)
     columns = ("line", "block", "motion", "feed", "pcs", "acs")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from pathlib import PurePosixPath
 
 from nicegui import Client, ui
@@ -24,6 +25,7 @@ KEYS = (
 )
 """Keys of the page; single keys count outside of the editor and of fields."""
 NO_MACHINE = "axes X Y Z"
+MOST_LEVELS = 10
 Choices = tuple[ui.select, ui.select]
 """Where program and machine are chosen."""
 
@@ -88,6 +90,7 @@ def _header(session: Session, listing: Listing) -> tuple[Pane, Choices]:
         ).props("dense options-dense outlined hide-bottom-space").classes("nc-choice")  # fmt: skip
         status = Pane("status", session.key, session.state.as_dict())
         status.classes("nc-status")
+        _icon("tune", "options of the run", _options_dialog(session).open)
         _icon("contrast", "dark or light", lambda: theme.set_value(not theme.value))
         _icon("keyboard", "keys", _keys_dialog().open)
     return status, (program, machine)
@@ -105,6 +108,28 @@ def _icon(name: str, hint: str, action) -> None:
     )
 
 
+def _options_dialog(session: Session) -> ui.dialog:
+    with ui.dialog() as dialog, ui.card():
+        ui.label("Options of the run").classes("text-h6")
+        clamp = ui.number("clamp position", format="%d").props("clearable dense outlined")
+        skip = ui.input("skip levels that are on, such as 1,3").props("dense outlined")
+        problem = ui.label().classes("nc-bad")
+
+        def run() -> None:
+            levels = [part.strip() for part in str(skip.value or "").split(",") if part.strip()]
+            if not all(level.isdigit() and 1 <= int(level) <= MOST_LEVELS for level in levels):
+                problem.set_text("skip levels are 1 to 10 with commas between them")
+                return
+            problem.set_text("")
+            position = None if clamp.value in (None, "") else int(clamp.value)
+            options = replace(session.options, clamp=position, skip=frozenset(map(int, levels)))
+            session.open(session.state.program, session.state.machine, options)
+            dialog.close()
+
+        ui.button("run", on_click=run).props("no-caps")
+    return dialog
+
+
 def _keys_dialog() -> ui.dialog:
     with ui.dialog() as dialog, ui.card():
         ui.label("Keys").classes("text-h6")
@@ -116,10 +141,10 @@ def _keys_dialog() -> ui.dialog:
 
 
 def _upper(session: Session) -> None:
-    with ui.splitter(value=27, limits=(12, 60)).classes("nc-fill") as left:
+    with ui.splitter(value=26, limits=(12, 60)).classes("nc-fill") as left:
         with left.before:
             Pane("code", session.key).classes("nc-fill")
-        with left.after, ui.splitter(value=62, limits=(20, 90)).classes("nc-fill") as right:
+        with left.after, ui.splitter(value=60, limits=(20, 90)).classes("nc-fill") as right:
             with right.before:
                 Pane("scene", session.key).classes("nc-fill")
             with right.after:

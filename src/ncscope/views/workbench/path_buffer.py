@@ -4,9 +4,9 @@ Container: 8 bytes magic, u32 length of the header, JSON header, then arrays, ea
 8 bytes, little endian. The header has for every array its dtype, shape and offset from the start
 of the container.
 
-Points and axis positions have one row for the start of every stretch and one for each move: move i
-of stretch s goes from row i + s to row i + s + 1. A new stretch starts where the axes stand, seen
-in its own coordinates.
+Points and axis positions have one row for the start of every stretch and one for each row of the
+trajectory: row i in stretch s comes from i + s and goes to i + s + 1. A new stretch starts where
+the axes stand, seen in its own coordinates. `end` says which rows are the ends of moves.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ SHORTEST = 1e-3
 
 
 def pack(result: Trajectory, pole_distance: Array) -> bytes:
-    """The container for a run. pole_distance (moves,): degrees, see `Inspection`."""
+    """The container for a run. pole_distance (rows,): degrees, see `Inspection`."""
     points, axes = _rows(result)
     finite = np.isfinite(points).all(axis=1)
     low, high = _bounds(points[finite])
@@ -45,6 +45,7 @@ def pack(result: Trajectory, pole_distance: Array) -> bytes:
         "time": time.astype("<f8"),
         "line": result.line.astype("<u4"),
         "motion": _motion(result).astype("u1"),
+        "end": result.end.astype("u1"),
         "pole": pole_distance.astype("<f4"),
         "stretch_first": _firsts(result).astype("<u4"),
         "stretch_file": np.array([names.index(s.file) for s in result.stretches], "<u2"),
@@ -53,7 +54,6 @@ def pack(result: Trajectory, pole_distance: Array) -> bytes:
         "stretch_length": np.array([s.coordinates.tool.length for s in result.stretches], "<f4"),
     }
     header = {
-        "moves": len(result),
         "axes": list(result.axes),
         "files": names,
         "systems": labels,
@@ -82,7 +82,7 @@ def _rows(result: Trajectory) -> tuple[Array, Array]:
 
 
 def _times(result: Trajectory, points: Array, axes: Array) -> Array:
-    """Seconds (moves,) until the end of each move, from the feed alone."""
+    """Seconds (rows,) until the end of each row, from the feed alone."""
     total, parts, row = 0.0, [], 0
     for s in result.stretches:
         stop = row + len(s) + 1

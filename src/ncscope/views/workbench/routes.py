@@ -30,6 +30,7 @@ from starlette.routing import Route
 
 from ncscope.diagnostics import Diagnostic, Severity
 from ncscope.execution import Options
+from ncscope.inspection import Inspection
 from ncscope.kinematics import KinematicsError
 from ncscope.views.records import diagnostic_record
 from ncscope.views.workbench.buffers import Buffer, Change, OutOfStep
@@ -144,7 +145,7 @@ def _result(session: Session, given: dict[str, Any], body: Any) -> Any:
         "axes": result.axes,
         "files": outcome.files,
         "machine": machine_view(outcome.machine),
-        "models": [model_view(outcome.machine, model) for model in models(result)],
+        "models": [model_view(outcome.machine, model) for model in models(outcome.drawn)],
         "diagnostics": [
             _diagnostic(d) for d in (*outcome.found, *result.diagnostics)[:MOST_DIAGNOSTICS]
         ],
@@ -173,7 +174,8 @@ def _events(outcome: Outcome) -> dict[str, Any]:
 
 def _path(session: Session, given: dict[str, Any], body: Any) -> Any:
     outcome = _outcome(session, given)
-    content = pack(outcome.trajectory, outcome.inspection.pole_distance)
+    pole_distance = Inspection(outcome.drawn, (), (), ()).pole_distance
+    content = pack(outcome.drawn, pole_distance)
     headers = {"cache-control": "no-store", "content-encoding": "identity"}
     return Response(content, 200, headers, "application/octet-stream")
 

@@ -24,6 +24,12 @@ Texts = Callable[[str], str | None]
 """The text that the page shows for a key, None where the file has not been opened."""
 
 
+SAMPLE = 0.02
+"""Chord error of the path that is drawn, mm and degrees."""
+SAMPLED_UP_TO = 4_000_000
+"""Characters of a program above which arcs are drawn as their chords."""
+
+
 class Stopped(Exception):
     """Raised inside the run when the user stops it."""
 
@@ -41,10 +47,12 @@ class Task:
 class Outcome:
     """What a run gave. files: name in results -> (key, kind), kind program, subprogram or list.
 
+    drawn: with points along arcs, to be drawn. trajectory: the same with the ends of moves only.
     found: what the lists have wrong, and what is worth saying about them.
     """
 
     machine: Machine
+    drawn: Trajectory
     trajectory: Trajectory
     found: tuple[Diagnostic, ...]
     files: dict[str, tuple[str, str]]
@@ -73,10 +81,11 @@ def run_task(
         result = run(
             machine,
             Program(source),
-            replace(task.options, load=load),
+            replace(task.options, load=load, sample=SAMPLE if length < SAMPLED_UP_TO else None),
             lambda offset: progress(offset / length),
         )
-    return Outcome(machine, result, found, files, inspect(result))
+    ends = result.at_ends()
+    return Outcome(machine, result, ends, found, files, inspect(ends))
 
 
 def _machine(
