@@ -33,8 +33,7 @@ SHORTEST = 1e-3
 def pack(result: Trajectory, pole_distance: Array) -> bytes:
     """The container for a run. pole_distance (rows,): degrees, see `Inspection`."""
     points, axes = _rows(result)
-    finite = np.isfinite(points).all(axis=1)
-    low, high = _bounds(points[finite])
+    low, high = _bounds(points)
     origin = (low + high) / 2
     time = _times(result, points, axes)
     labels, systems = _systems(result)
@@ -86,8 +85,10 @@ def _times(result: Trajectory, points: Array, axes: Array) -> Array:
     total, parts, row = 0.0, [], 0
     for s in result.stretches:
         stop = row + len(s) + 1
-        tip = np.linalg.norm(np.diff(points[row:stop], axis=0), axis=1)
-        swing = np.nan_to_num(np.abs(np.diff(axes[row:stop], axis=0))).max(axis=1, initial=0.0)
+        tip = np.sqrt(sum(np.diff(column) ** 2 for column in points[row:stop].T))
+        swing = np.zeros(len(s))
+        for column in axes[row:stop].T:
+            np.fmax(swing, np.abs(np.diff(column)), out=swing)
         way = np.where(tip > 1e-9, tip, swing)
         feed = np.where((s.motion == 0) | ~(s.feed > 0), RAPID, s.feed)
         fast = np.where(s.motion == 0, np.maximum(swing, tip), way)
@@ -99,9 +100,11 @@ def _times(result: Trajectory, points: Array, axes: Array) -> Array:
 
 
 def _bounds(points: Array) -> tuple[Array, Array]:
+    """Smallest and largest coordinates (3,), mm; column by column, which is faster."""
     if not len(points):
         return np.zeros(3), np.zeros(3)
-    return points.min(axis=0), points.max(axis=0)
+    columns = [points[:, k] for k in range(3)]
+    return np.array([c.min() for c in columns]), np.array([c.max() for c in columns])
 
 
 def _systems(result: Trajectory) -> tuple[list[str], NDArray[np.int64]]:
