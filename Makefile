@@ -47,7 +47,8 @@ workbench-js:
 
 # Pictures of the main states of the workbench, to be looked at: build/screenshots.
 screenshots: $(STAMP)
-	$(BIN)/python tests/workbench/screenshots.py
+	$(BIN)/python tests/workbench/screenshots.py build/screenshots
+	cp build/screenshots/overview_light.png docs/pictures/workbench.png
 
 # Time to the first picture and memory for a program of a million blocks.
 bench-workbench: $(STAMP)

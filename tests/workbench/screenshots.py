@@ -40,8 +40,10 @@ def overview(page: Page, address: str) -> None:
     """A table machine in the middle of a five-axis path."""
     page.open(address, DOME, TABLE)
     page.tab.locator(".nc-slider").fill("304")
-    page.tab.get_by_label("colour of the path").select_option("A")
     page.wait_for_row(303)
+    page.tab.get_by_label("colour of the path").select_option("A")
+    page.tab.get_by_role("button", name="fit the path into the view (F)").click()
+    page.tab.locator(".nc-slider").blur()
 
 
 def jog(page: Page, address: str) -> None:

@@ -123,7 +123,13 @@ export class Scene {
     return found.union(box.getBoundingSphere(new THREE.Sphere()).set(box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3()).length() * 0.46));
   }
 
-  pathSphere() { return new THREE.Sphere(new THREE.Vector3(), this.radius() * 1.1); }
+  /** Around the path, where the workpiece stands now. */
+  pathSphere() {
+    this.world.updateMatrixWorld(true);
+    const centre = new THREE.Vector3();
+    if (this.path) centre.setFromMatrixPosition(this.path.group.matrixWorld);
+    return new THREE.Sphere(centre, this.radius() * 1.1);
+  }
 
   radius() { return Math.max(this.path?.sphere.radius ?? 50, 1); }
 
