@@ -147,6 +147,38 @@ def test_arcs_are_drawn_with_points_and_shown_as_one_move(page: Page, tmp_path: 
     assert page.get(f"/move/{revision}/1").json()["move"]["index"] == 1
 
 
+def test_curves_mark_limits_and_poses(page: Page, tmp_path: Path) -> None:
+    limits = "kopf.achs_nr 1\nkenngr.swe_neg -50000\nkenngr.swe_pos 50000\n"  # 0.1 um: 5 mm
+    (tmp_path / "head" / "achs1.lis").write_text(limits)
+    (tmp_path / "turn.nc").write_text(
+        "#TRAFO [91]\nG01 X1 A10 F1000\nX2\nX9 A-10\nX1 A-20\n#TRAFO OFF\nM30\n"
+    )
+    page.open("turn.nc", "head")
+    found = page.result()["events"]
+    assert found["poses"] == [2]  # the tool leans to the other side in the third move
+    assert [(e["axis"], e["rows"]) for e in found["limits"]] == [("X", [2])]
+
+
+def test_a_message_knows_its_line(page: Page, tmp_path: Path) -> None:
+    (tmp_path / "say.nc").write_text('G00 X1\n#MSG ["hello"]\nM30\n')
+    page.open("say.nc")
+    assert page.result()["messages"] == [
+        {"file": None, "text": "hello", "source": "say.nc", "line": 2}
+    ]
+
+
+def test_subprograms_are_named_and_can_be_edited(page: Page, tmp_path: Path) -> None:
+    (tmp_path / "sub.nc").write_text("G00 X3\nM17\n")
+    (tmp_path / "main.nc").write_text("L sub.nc\nM30\n")
+    page.open("main.nc")
+    assert page.result()["files"]["sub.nc"] == ["sub.nc", "subprogram"]
+    page.get("/text?key=sub.nc")
+    page.post("/edit?key=sub.nc", {"text": "G00 X4\nM17\n"})
+    revision = page.wait().revision
+    move = page.get(f"/move/{revision}/0").json()["move"]
+    assert (move["file"], move["line"], move["pcs"]["X"]) == ("sub.nc", 1, 4.0)
+
+
 def test_playback_takes_the_time_of_the_feed(page: Page, tmp_path: Path) -> None:
     (tmp_path / "feed.nc").write_text("G01 X100 F1000\nY50\nM30\n")
     revision = page.open("feed.nc").revision

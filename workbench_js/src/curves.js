@@ -176,7 +176,7 @@ export class Curves {
 
   /** Bands behind the curves: blocks beyond a travel limit, swings at the pole, turned-over axes. */
   drawEvents(plot) {
-    const { ctx, bbox } = plot, { limits = [], swings = [], wraps = [] } = store.result?.events ?? {};
+    const { ctx, bbox } = plot, { limits = [], swings = [], wraps = [], poses = [] } = store.result?.events ?? {};
     const bands = (shade, rows) => {
       ctx.fillStyle = shade;
       for (const [first, last] of rows) {
@@ -187,6 +187,15 @@ export class Curves {
     };
     ctx.save();
     bands(colour("band-limit"), limits.flatMap(({ rows }) => joined(rows)));
+    ctx.strokeStyle = colour("warning");
+    ctx.setLineDash([2, 3]);
+    for (const move of poses.filter((p) => p + 1 >= this.from && p + 1 <= this.to)) {
+      const x = plot.valToPos(move + 1, "x", true);
+      ctx.beginPath();
+      ctx.moveTo(x, bbox.top);
+      ctx.lineTo(x, bbox.top + bbox.height);
+      ctx.stroke();
+    }
     bands(colour("band-pole"), [...swings.map((s) => [s.row, s.last]), ...wraps.map((w) => [w.row, w.row])]);
     ctx.restore();
   }

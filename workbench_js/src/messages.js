@@ -19,7 +19,7 @@ export class Messages {
     const rows = [
       ...(trouble ? [row("error", "", "", trouble)] : []),
       ...diagnostics.slice(0, MOST).map(diagnosticRow),
-      ...messages.slice(0, MOST).map(({ file, text }) => row("message", file, "", text)),
+      ...messages.slice(0, MOST).map(messageRow),
     ];
     const hidden = diagnostics.length + messages.length - rows.length;
     if (hidden > 0) rows.push(row("note", "", "", `${hidden} more are not shown`));
@@ -35,6 +35,12 @@ function diagnosticRow(d) {
     type: "button", class: `nc-message nc-${d.severity}`, onclick: () => d.line && goTo(d.file, d.line),
   }, el("span", { class: "nc-severity" }, d.severity), el("span", { class: "nc-id" }, d.id), el("span", { class: "nc-place" }, place),
   el("span", { class: "nc-text-of" }, d.message, d.hint && el("span", { class: "nc-hint" }, d.hint)));
+}
+
+function messageRow({ source, line, text, file }) {
+  if (!line) return row("message", file ?? "", "", text);
+  return el("button", { type: "button", class: "nc-message", onclick: () => goTo(source, line) },
+    el("span", { class: "nc-severity" }, "message"), el("span", { class: "nc-id" }), el("span", { class: "nc-place" }, `${source}:${line}`), el("span", { class: "nc-text-of" }, text));
 }
 
 function row(kind, place, id, text) {

@@ -28,11 +28,13 @@ class Message:
     """A text that the program wrote; `file` is None for a message to a display.
 
     end: what follows the text in the file (a line end, or nothing with CONTINUE).
+    span: the command that wrote it.
     """
 
     file: str | None
     text: str
     end: str = "\n"
+    span: Span | None = None
 
 
 class BlockError(Exception):

@@ -28,7 +28,7 @@ def save(draft: Draft, command: tree.HashCommand) -> None:
     if "EXCLUSIVE" not in words:
         text = f'"{text}"'
     end = "" if "CONTINUE" in words else "\n"
-    draft.messages.append(Message(draft.state.message_file, text, end))
+    draft.messages.append(Message(draft.state.message_file, text, end, command.span))
 
 
 def show(draft: Draft, command: tree.HashCommand) -> None:
@@ -38,7 +38,7 @@ def show(draft: Draft, command: tree.HashCommand) -> None:
         _check_receiver(draft, command.groups[0])
     elif len(command.groups) > 2:
         draft.fail("N1005", command.groups[2].span, "#MSG has a receiver and a text", _FORM)
-    draft.messages.append(Message(None, _text(draft, command)))
+    draft.messages.append(Message(None, _text(draft, command), span=command.span))
 
 
 _FORM = 'write #MSG ["text"], or with a receiver #MSG [HMI] ["text"]'

@@ -28,12 +28,14 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
+from ncscope.channel.draft import Message
 from ncscope.diagnostics import Diagnostic, Severity
 from ncscope.execution import Options
 from ncscope.inspection import Inspection
 from ncscope.kinematics import KinematicsError
 from ncscope.views.records import diagnostic_record
 from ncscope.views.workbench.buffers import Buffer, Change, OutOfStep
+from ncscope.views.workbench.events import events
 from ncscope.views.workbench.files import Refused
 from ncscope.views.workbench.machines import jog_forward, jog_inverse, machine_view, model_view
 from ncscope.views.workbench.moves import line_view, move_view
@@ -43,7 +45,6 @@ from ncscope.views.workbench.session import Session, Sessions
 
 MOST_DIAGNOSTICS = 2000
 MOST_MESSAGES = 2000
-MOST_EVENTS = 5000
 MOST_BODY = 64_000_000
 """Bytes of a request: a whole text of a large program."""
 
@@ -149,26 +150,8 @@ def _result(session: Session, given: dict[str, Any], body: Any) -> Any:
         "diagnostics": [
             _diagnostic(d) for d in (*outcome.found, *result.diagnostics)[:MOST_DIAGNOSTICS]
         ],
-        "events": _events(outcome),
-        "messages": [{"file": m.file, "text": m.text} for m in result.messages[:MOST_MESSAGES]],
-    }
-
-
-def _events(outcome: Outcome) -> dict[str, Any]:
-    """What the curves mark: rows beyond travel limits, swings at the pole, turned-over axes."""
-    found = outcome.inspection
-    return {
-        "limits": [
-            {"axis": t.axis.name, "rows": rows[:MOST_EVENTS].tolist()}
-            for t in found.travel
-            for rows in (t.below, t.above)
-            if len(rows)
-        ],
-        "swings": [
-            {"axis": s.axis, "row": s.row, "last": s.last, "distance": s.distance, "swing": s.swing}
-            for s in found.swings[:MOST_EVENTS]
-        ],
-        "wraps": [{"axis": w.axis.name, "row": w.row} for w in found.wraps[:MOST_EVENTS]],
+        "events": events(outcome.trajectory, outcome.inspection),
+        "messages": [_message(m) for m in result.messages[:MOST_MESSAGES]],
     }
 
 
@@ -244,6 +227,13 @@ def _options(session: Session, body: Any) -> Options:
 
 def _buffer(buffer: Buffer) -> dict[str, Any]:
     return {"version": buffer.version, "changed": buffer.changed}
+
+
+def _message(message: Message) -> dict[str, Any]:
+    """A text of the program, with the line that wrote it."""
+    span = message.span
+    place = {"source": span.source.name, "line": span.line} if span else {}
+    return {"file": message.file, "text": message.text, **place}
 
 
 def _diagnostic(item: Diagnostic) -> dict[str, Any]:
