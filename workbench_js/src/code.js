@@ -7,6 +7,17 @@ import { mainName, on, selectLine, store } from "./store.js";
 /** Key of a file that a result names. */
 const keyOf = (name) => store.result?.files[name]?.[0];
 
+const LONGEST_WAIT = 1500;
+
+/** A large text comes behind the picture of its path, unless that takes long. */
+function firstPicture() {
+  if (store.revision) return Promise.resolve();
+  return new Promise((done) => {
+    const end = on("result", () => { end(); requestAnimationFrame(() => setTimeout(done)); });
+    setTimeout(done, LONGEST_WAIT);
+  });
+}
+
 export class Code {
   constructor(host) {
     this.host = host;
@@ -78,7 +89,7 @@ export class Code {
       editor.host = el("div", { class: "nc-text" });
       this.editors.set(key, editor);
       this.texts.append(editor.host);
-      editor.ready = editor.open(editor.host).catch((error) => {
+      editor.ready = firstPicture().then(() => editor.open(editor.host)).catch((error) => {
         this.editors.delete(key);
         editor.host.remove();
         this.trouble(error.message);

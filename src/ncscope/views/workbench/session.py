@@ -70,9 +70,12 @@ class Session:
         self._runner.stop()
 
     def close(self) -> None:
-        """The page has gone."""
+        """The page has gone; what it held is let go, whoever still knows the session."""
         self.changed = lambda: None
         self.stop()
+        with self._lock:
+            self.outcome = None
+            self._buffers.clear()
 
     def _work(self, task: Task, check: Callable[[float], None]) -> None:
         def progress(part: float) -> None:
