@@ -32,6 +32,7 @@ LAYERS = (
     "transitions",
     "inspection",
     "channel",
+    "program",
     "execution lists",
     "loading",
     "views",

@@ -59,7 +59,7 @@ def _load() -> None:
 
     if not _all_waiting:  # another thread was faster
         return
-    _loaded.append(njit(cache=True, error_model="numpy"))
+    _loaded.append(njit(cache=True, error_model="numpy", nogil=True))
     for waiting in _all_waiting:
         waiting.code = _loaded[0](waiting.function)
     for waiting in _all_waiting:

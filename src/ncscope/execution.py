@@ -6,7 +6,7 @@ touches files: messages are values of the result.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -17,67 +17,27 @@ from ncscope.channel.given import GivenRows
 from ncscope.channel.loop_lane import LoopLane, Visited
 from ncscope.channel.start import start_state
 from ncscope.channel.state import CallRequest, Return, Running, State
-from ncscope.channel.subprograms import Load, Passage, call, leave, nesting_warning, return_in_main
+from ncscope.channel.subprograms import Passage, call, leave, nesting_warning, return_in_main
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
-from ncscope.inspection import inspect
+from ncscope.inspection import Inspector
 from ncscope.language import BlockReader, tree
 from ncscope.language.detection import needs_layout
 from ncscope.language.structure import Layout, layout
 from ncscope.machine import Machine
-from ncscope.motion.sampling import FINEST
+from ncscope.program import Options, Program, Progress, Sink
 from ncscope.recording import Recorder
-from ncscope.trajectory import Trajectory
+from ncscope.trajectory import Stretch, Trajectory
 from ncscope.transitions import Transitions
 
 if TYPE_CHECKING:
     from ncscope.language.scanner import Scanner
 
-Progress = Callable[[int], None]
 MOST_BLOCKS = 10_000_000
 """Executed blocks after which a program with loops ends, where no limit is given."""
 
 
 BULK_FROM = 20_000
 """Characters from which the compiled bulk lane is worth the time of its loading."""
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """How a program is run.
-
-    clamp: clamp position handed over at program start. skip: skip levels that are switched on.
-    max_blocks: blocks after which the run stops, 0 for no limit. strict: a warning stops too.
-    sample: largest chord error (mm and degrees) of points along the moves, in the workpiece and
-    per axis; None for the ends of moves only. See `motion.sampling`.
-    bulk: whether plain blocks are taken many at a time; None leaves it to the length
-    of the program. The result is the same.
-    load: the text of a subprogram file that the program calls, None where there is none; without
-    it no file is found. external: values of the PLC's variables by name, `V.E.NAME`.
-    probe: the answers of the probe (`load_rows`), a row for each measuring run; without them it
-    triggers at the target.
-    """
-
-    clamp: int | None = None
-    skip: frozenset[int] = frozenset()
-    max_blocks: int = 0
-    strict: bool = False
-    bulk: bool | None = None
-    load: Load | None = None
-    external: Mapping[str, float | str] = field(default_factory=dict)
-    sample: float | None = None
-    probe: GivenRows | None = None
-
-    def __post_init__(self) -> None:
-        """Raises ValueError for a tolerance below the resolution of the control."""
-        if self.sample is not None and not self.sample >= FINEST:
-            raise ValueError(f"sample has to be {FINEST:g} or more")
-
-
-@dataclass(frozen=True, slots=True)
-class Program:
-    """An NC program: its text under the name that the user gave."""
-
-    source: Source
 
 
 @dataclass
@@ -102,27 +62,36 @@ def run(
     program: Program | str,
     options: Options | None = None,
     progress: Progress | None = None,
+    sink: Sink | None = None,
 ) -> Trajectory:
     """Every motion block of the program, in all coordinate systems.
 
-    program: from `load_program`, or NC text. progress: called now and then with the offset in the
-    text that was reached; what it raises ends the run. What is wrong with the program is in
-    `Trajectory.diagnostics`.
+    program: from `load_program`, or NC text. progress: what it raises ends the run. sink: gets
+    the moves while the program runs; the result then holds everything but them. What is wrong
+    with the program is in `Trajectory.diagnostics`.
     Raises KeyError for a clamp position or an external variable that the machine does not have.
     """
     options = options or Options()
     source = program.source if isinstance(program, Program) else Source("program", program)
-    loop = _Loop(machine, source, options)
-    _run_configured(loop, machine.settings.start_file)
-    if loop.over:
-        pass
-    elif needs_layout(source):
-        _walk(loop, progress)
-    else:
-        _stream(loop, progress)
-    if not loop.log.stop:
-        _run_configured(loop, machine.settings.end_file)
+    loop = _Loop(machine, source, options, progress, sink)
+    try:
+        _run_all(loop)
+    except BaseException:  # broken off from outside: what was reached belongs to the sink
+        loop.recorder.finish()
+        raise
     return loop.result()
+
+
+def _run_all(loop: _Loop) -> None:
+    settings = loop.machine.settings
+    _run_configured(loop, settings.start_file)
+    if not loop.over:
+        if needs_layout(loop.source):
+            _walk(loop)
+        else:
+            _stream(loop)
+    if not loop.log.stop:
+        _run_configured(loop, settings.end_file)
 
 
 def _run_configured(loop: _Loop, name: str) -> None:
@@ -131,7 +100,7 @@ def _run_configured(loop: _Loop, name: str) -> None:
         _run_files(loop, (CallRequest("L", name, Span(loop.source, 0, 0)),))
 
 
-def _stream(loop: _Loop, progress: Progress | None) -> None:
+def _stream(loop: _Loop) -> None:
     """A program whose blocks follow each other: read as it runs, plain blocks in bulk."""
     reader = BlockReader(loop.source)
     blocks = iter(reader)
@@ -145,8 +114,7 @@ def _stream(loop: _Loop, progress: Progress | None) -> None:
             loop.add([return_in_main(loop.returned.span)])
         elif loop.calls and not loop.log.stop:
             _run_files(loop, loop.calls)
-        if progress is not None:
-            progress(reader.at)
+        loop.report(reader.at)
 
 
 def _run_files(loop: _Loop, calls: tuple[CallRequest, ...]) -> None:
@@ -155,12 +123,12 @@ def _run_files(loop: _Loop, calls: tuple[CallRequest, ...]) -> None:
     walker = Walker(loop.machine, empty, loop.options.load, loop.options.skip)
     ended, loop.ended = loop.ended, False
     loop.accept(call(walker, loop.state, calls))
-    _drive(loop, walker, None)
+    _drive(loop, walker)
     loop.ended = loop.ended or ended
     loop.blamed = None
 
 
-def _walk(loop: _Loop, progress: Progress | None) -> None:
+def _walk(loop: _Loop) -> None:
     """A program with control statements or calls: read once, then walked."""
     table = layout(loop.source, loop.options.skip)
     loop.add(table.diagnostics)
@@ -168,14 +136,14 @@ def _walk(loop: _Loop, progress: Progress | None) -> None:
         message = "the file has subprograms only: a main program begins with % and its name"
         loop.add([diagnostic("20368", table.entries[0].block.span, message)])
     walker = Walker(loop.machine, table, loop.options.load, loop.options.skip)
-    _drive(loop, walker, progress)
+    _drive(loop, walker)
     if not loop.log.stop:
         loop.add(open_warnings(walker))
 
 
-def _drive(loop: _Loop, walker: Walker, progress: Progress | None) -> None:
+def _drive(loop: _Loop, walker: Walker) -> None:
     """Block by block until the outermost level of the walker ends."""
-    entry, reached = None, 0
+    entry = None
     while not loop.over:
         entry = walker.entry
         if entry is None:
@@ -185,8 +153,7 @@ def _drive(loop: _Loop, walker: Walker, progress: Progress | None) -> None:
             continue
         loop.blamed = walker.blamed
         if loop.take_loop(walker):
-            if progress is not None:
-                progress(reached)
+            loop.report(loop.reached)
             continue
         if entry.keyword and not entry.block.words:
             loop.meet(entry.block, entry.found)
@@ -194,9 +161,8 @@ def _drive(loop: _Loop, walker: Walker, progress: Progress | None) -> None:
             loop.take(entry.block, entry.found)
         if not loop.log.stop:
             _go_on(loop, walker)
-        if progress is not None:
-            reached = reached if walker.calls else entry.block.span.start
-            progress(reached)
+        in_main = not walker.calls and walker.layout.source is loop.source
+        loop.report(entry.block.span.start if in_main else loop.reached)
     if loop.ended and walker.calls and entry is not None:
         loop.add([nesting_warning(entry.block.span)])
 
@@ -223,12 +189,23 @@ def _go_on(loop: _Loop, walker: Walker) -> None:
 class _Loop:
     """What a run holds from block to block."""
 
-    def __init__(self, machine: Machine, source: Source, options: Options) -> None:
+    def __init__(
+        self,
+        machine: Machine,
+        source: Source,
+        options: Options,
+        progress: Progress | None,
+        sink: Sink | None,
+    ) -> None:
         self.machine, self.source, self.options = machine, source, options
+        self.progress, self.sink, self.reached = progress, sink, 0
         state = start_state(machine, options.clamp, options.probe, options.external)
         self.state = replace(state, running=Running(file=source.name))
-        self.recorder, self.log = Recorder(source, options.sample), _Log()
+        self.stretches: list[Stretch] = []
+        self.taken = 0
+        self.recorder, self.log = Recorder(source, options.sample, self._take), _Log()
         self.transitions = Transitions(self.recorder)
+        self.inspector = Inspector()
         self.messages: list[Message] = []
         self.channels = [(0, self.state.axes)]
         self.sources = {source.name: source}
@@ -301,6 +278,21 @@ class _Loop:
             self.recorder.extend(stretch, start)
             self.count += len(stretch)
             reader.skip_to(int(rows.stops[len(stretch) - 1]))
+            self.report(reader.at)
+
+    def report(self, offset: int) -> None:
+        """The offset in the main program that was reached."""
+        self.reached = offset
+        if self.progress is not None:
+            self.progress(offset, self.count)
+
+    def _take(self, stretch: Stretch) -> None:
+        """Moves that are recorded for good."""
+        axes = [axes for moves, axes in self.channels if moves <= self.taken]
+        ends = stretch.at_ends()
+        self.inspector.see(ends, axes[-1])
+        self.taken += len(ends)
+        (self.sink or self.stretches.append)(stretch)
 
     def take_loop(self, walker: Walker) -> bool:
         """Blocks that are executed again and again, in the loop lane; whether there were any."""
@@ -341,17 +333,17 @@ class _Loop:
         if not self.log.stop:
             self.add(_unused(self.state.probe))
             self.add(self.transitions.finish())
-        stretches = self.recorder.finish()
+        self.recorder.finish()
         self.add(self.recorder.complaints())
         done = Trajectory(
-            stretches,
+            tuple(self.stretches),
             tuple(self.recorder.axes) or self.state.axis_names,
             messages=tuple(self.messages),
             channels=tuple((self.recorder.rows_of(moves), axes) for moves, axes in self.channels),
             _places=self.recorder.places,
             _file=self.source.name,
         )
-        self.add(inspect(done.at_ends()).diagnostics(self.sources))
+        self.add(self.inspector.inspection(done).diagnostics(self.sources))
         return replace(done, diagnostics=tuple(self.log.items), ok=not self.log.stop)
 
 

@@ -9,7 +9,7 @@ not end the run: what comes behind it is shown too, although the control would s
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -81,14 +81,23 @@ class Wrap:
     after: float
 
 
+Place = tuple[str, int]
+"""File and line of a move that a warning names."""
+
+
 @dataclass(frozen=True)
 class Inspection:
-    """The numbers behind the warnings of a run; rows count from 0 over the whole trajectory."""
+    """The numbers behind the warnings of a run; rows count from 0 over the whole trajectory.
+
+    result: without moves where they were not kept. places: by row, at least of the rows that
+    `diagnostics` names.
+    """
 
     result: Trajectory = field(repr=False)
     travel: tuple[Travel, ...]
     swings: tuple[Swing, ...]
     wraps: tuple[Wrap, ...]
+    places: Mapping[int, Place] = field(repr=False)
 
     @cached_property
     def move(self) -> Rows:
@@ -128,7 +137,7 @@ class Inspection:
         found = [*self._limit_warnings(), *self._swing_warnings(), *self._wrap_warnings()]
         found.sort(key=lambda item: item[0])
         return tuple(
-            diagnostic(id, _span(self.result, row, sources or {}), message, hint)
+            diagnostic(id, _span(self.places[row], sources or {}), message, hint)
             for row, id, message, hint in found
         )
 
@@ -150,7 +159,7 @@ class Inspection:
                     f"axis {axis.name} goes to {_number(at)} {unit}, beyond its software limit "
                     f"{_number(limit)}"
                 )
-                count = len(np.unique(self.move[rows]))
+                count = len(np.unique(self.move[rows] if self.result.sampled else rows))
                 if count > 1:
                     message += f"; {count} blocks are beyond it, at most {_number(worst)}"
                 hint = f"the control stops the axis here; the limit is {key}"
@@ -187,21 +196,49 @@ class Inspection:
             yield first.row, "N4103", message, hint
 
 
+class Inspector:
+    """Takes the stretches of a run one after the other."""
+
+    def __init__(self) -> None:
+        self._row = 0
+        self._travel: dict[Axis, Travel] = {}
+        self._swings: list[Swing] = []
+        self._wraps: list[Wrap] = []
+        self._places: dict[int, Place] = {}
+
+    def see(self, s: Stretch, axes: tuple[Axis, ...]) -> None:
+        """The next moves, with the axes of the channel at them."""
+        if len(s) == 0:
+            return
+        row = self._row
+        for column, axis in enumerate(axes):
+            seen, known = _travel(axis, *_positions(s, column), row), self._travel.get(axis)
+            self._travel[axis] = seen if known is None else _joined(known, seen)
+            self._remember(s, (int(rows[0]) for rows in (seen.below, seen.above) if len(rows)))
+        pole = _pole(s)
+        swings = [] if pole is None else _swings(pole, s, row)
+        wraps = _wraps(s, axes, row)
+        self._remember(s, [*(swing.row for swing in swings), *(wrap.row for wrap in wraps)])
+        self._swings += swings
+        self._wraps += wraps
+        self._row += len(s)
+
+    def inspection(self, result: Trajectory) -> Inspection:
+        """What was seen; the result with or without its moves."""
+        travel, swings, wraps = (tuple(self._travel.values()), self._swings, self._wraps)
+        return Inspection(result, travel, tuple(swings), tuple(wraps), self._places)
+
+    def _remember(self, s: Stretch, rows: Iterable[int]) -> None:
+        for row in rows:
+            self._places.setdefault(row, (s.file, int(s.line[row - self._row])))
+
+
 def inspect(result: Trajectory) -> Inspection:
     """Travel, limits, swings at the pole and turned-over axes of a run."""
-    travel: dict[Axis, Travel] = {}
-    swings: list[Swing] = []
-    wraps: list[Wrap] = []
+    inspector = Inspector()
     for row, s in _stretches(result):
-        axes = _axes_at(result, row, s)
-        for column, axis in enumerate(axes):
-            seen = _travel(axis, *_positions(s, column), row)
-            travel[axis] = _joined(travel[axis], seen) if axis in travel else seen
-        pole = _pole(s)
-        if pole is not None:
-            swings.extend(_swings(pole, s, row))
-        wraps.extend(_wraps(s, axes, row))
-    return Inspection(result, tuple(travel.values()), tuple(swings), tuple(wraps))
+        inspector.see(s, _axes_at(result, row, s))
+    return inspector.inspection(result)
 
 
 def place(result: Trajectory, row: int) -> tuple[str, int, int | None]:
@@ -349,8 +386,8 @@ def _number(value: float) -> str:
     return f"{value + 0.0:.4f}".rstrip("0").rstrip(".")
 
 
-def _span(result: Trajectory, row: int, sources: Mapping[str, Source]) -> Span | None:
-    file, line, _ = place(result, row)
+def _span(place: Place, sources: Mapping[str, Source]) -> Span | None:
+    file, line = place
     source = sources.get(file)
     if source is None:
         return None

@@ -6,7 +6,7 @@ set of axes; with a tolerance they hold points along the moves too.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -76,25 +76,35 @@ class _Part:
         return replace(self, stretch=replace(self.stretch, pcs=pcs, acs=acs), arcs=arcs)
 
 
+LONGEST = 50_000
+"""Moves after which a stretch is closed: as columns they need little memory."""
+
+
 class Recorder:
     """Collects moves while a program runs, in growing columns, and closes a stretch whenever the
     coordinates or the axes change.
 
     tolerance: largest chord error between rows, mm and degrees; None for the ends of moves only.
+    sink: gets each stretch when no move of it can change any more.
     """
 
-    def __init__(self, source: Source, tolerance: float | None = None) -> None:
+    def __init__(
+        self, source: Source, tolerance: float | None, sink: Callable[[Stretch], None]
+    ) -> None:
         self.file = source.name
-        self.stretches: list[Stretch] = []
         self.axes: list[str] = []
         self.places: dict[int, Visit] = {}
         self.coarse: dict[tuple[str, int], Span | None] = {}
+        self.moves = 0
         self._source = source
         self._tolerance = tolerance
-        self.moves = 0
-        self._parts: list[_Part] = []
+        self._sink = sink
         self._open: tuple[Coordinates, tuple[str, ...], Array, str] | None = None
         self._moves: list[Move] = []
+        self._pending: _Part | None = None
+        self._done = 0
+        self._rows = 0
+        self._row_of_move: dict[int, int] = {}
 
     def add(
         self, coordinates: Coordinates, axes: tuple[str, ...], move: Move, start: Array
@@ -102,7 +112,10 @@ class Recorder:
         """One move; `start` are the axis positions before it."""
         file = move.span.source.name
         if self._open is None or (
-            self._open[0] is not coordinates or self._open[1] != axes or self._open[3] != file
+            self._open[0] is not coordinates
+            or self._open[1] != axes
+            or self._open[3] != file
+            or len(self._moves) == LONGEST
         ):
             self._close()
             self._open = (coordinates, axes, start, file)
@@ -112,21 +125,21 @@ class Recorder:
     def extend(self, stretch: Stretch, start: Array) -> None:
         """Many straight moves at once; `start` are the programmed values before them."""
         self._close()
-        self._parts.append(_Part(stretch, start))
+        self._push(_Part(stretch, start))
         self.moves += len(stretch)
 
     def last(self) -> tuple[Move, Coordinates] | None:
         """The last move with its chain; None before the first one."""
         if self._open is not None:
             return self._moves[-1], self._open[0]
-        return self._parts[-1].last(self._source) if self._parts else None
+        return None if self._pending is None else self._pending.last(self._source)
 
     def replace_last(self, move: Move) -> None:
         """Another end for the last move."""
         if self._open is not None:
             self._moves[-1] = move
-        else:
-            self._parts[-1] = self._parts[-1].with_last(move)
+        elif self._pending is not None:
+            self._pending = self._pending.with_last(move)
 
     def visit(
         self, line: int, block: int | None, coordinates: Coordinates, axes: tuple[str, ...],
@@ -135,21 +148,14 @@ class Recorder:
         """A block without motion: what `explain` of its line shows."""
         self.places[line] = Visit(coordinates, axes, self.file, block, program, position, position)
 
-    def finish(self) -> tuple[Stretch, ...]:
-        """All stretches, with the points between where a tolerance asks for them."""
+    def finish(self) -> None:
+        """Gives the last stretch to the sink."""
         self._close()
-        for part in self._parts:
-            self._name_axes(part.stretch.axes)
-            self.stretches.append(self._sampled(part))
-        self._parts = []
-        return tuple(self.stretches)
+        self._push(None)
 
     def rows_of(self, moves: int) -> int:
-        """Rows of the finished trajectory up to the end of so many moves."""
-        if self._tolerance is None or moves == 0:
-            return moves
-        ends = np.concatenate([s.end for s in self.stretches])
-        return int(np.flatnonzero(ends)[moves - 1]) + 1
+        """Rows up to the end of so many moves, where a stretch ended there or nothing followed."""
+        return self._row_of_move.get(moves, self._rows)
 
     def _close(self) -> None:
         if self._open is None:
@@ -158,8 +164,22 @@ class Recorder:
         arcs = {i: m.arc for i, m in enumerate(moves) if m.arc is not None}
         starts = np.array([m.start for m in moves], dtype=float)
         ways = {i: m.way for i, m in enumerate(moves) if m.way is not None}
-        self._parts.append(_Part(self._stretch(), starts, arcs, [m.span for m in moves], ways))
+        part = _Part(self._stretch(), starts, arcs, [m.span for m in moves], ways)
         self._open, self._moves = None, []
+        self._push(part)
+
+    def _push(self, part: _Part | None) -> None:
+        """The next part waits, because its last move may yet be cut by a chamfer; the one before
+        is done."""
+        done, self._pending = self._pending, part
+        if done is None:
+            return
+        stretch = self._sampled(done)
+        self._row_of_move[self._done] = self._rows
+        self._done += len(done.stretch)
+        self._rows += len(stretch)
+        self.axes.extend(a for a in stretch.axes if a not in self.axes)
+        self._sink(stretch)
 
     def complaints(self) -> list[Diagnostic]:
         """N4004 for every line with a move whose points are farther apart than the tolerance."""
@@ -215,9 +235,6 @@ class Recorder:
             acs=points.acs,
             ends=points.share == 1.0,
         )
-
-    def _name_axes(self, axes: tuple[str, ...]) -> None:
-        self.axes.extend(a for a in axes if a not in self.axes)
 
 
 def _line_span(source: Source, file: str, line: int) -> Span | None:

@@ -25,6 +25,8 @@ from ncscope.machine import Axis
 from ncscope.motion import MOTIONS
 from ncscope.motion.turning import TurningPoints
 
+PARQUET: Mapping[str, Any] = {"compression": "snappy", "use_dictionary": ["motion"]}
+"""Coordinates rarely repeat: a dictionary of them costs time and saves nothing."""
 NO_BLOCK = -1
 """In the column `block`: the line has no N number."""
 
@@ -62,9 +64,32 @@ class Stretch:
 
     def at_ends(self) -> Stretch:
         """The stretch with the ends of moves only."""
+        if self.ends is None:
+            return self
         columns = ("line", "block", "motion", "feed", "pcs", "acs")
         kept = {name: getattr(self, name)[self.end] for name in columns}
         return replace(self, **kept, ends=None)
+
+    def to_arrow(self, axes: tuple[str, ...], sampled: bool) -> Any:
+        """The columns of `Trajectory.to_arrow`; an axis that was not in the channel is NaN."""
+        import pyarrow as pa
+
+        motions = pa.DictionaryArray.from_arrays(pa.array(self.motion), pa.array(MOTIONS))
+        columns = {
+            "line": pa.array(self.line),
+            "block": pa.array(self.block),
+            "motion": motions.cast(pa.string()),
+            "feed": pa.array(self.feed),
+        }
+        if sampled:
+            columns["end"] = pa.array(self.end)
+        missing = np.full(len(self), np.nan)
+        for name in ("pcs", "wcs", "mcs", "acs"):
+            rows = dict(zip(self.axes, np.ascontiguousarray(getattr(self, name).T), strict=True))
+            columns |= {f"{name}_{axis}": pa.array(rows.get(axis, missing)) for axis in axes}
+        direction = [missing] * 3 if self.direction is None else self.direction.T.copy()
+        columns |= {f"direction_{c}": pa.array(direction[i]) for i, c in enumerate("ijk")}
+        return pa.table(columns)
 
     @cached_property
     def mcs(self) -> Array:
@@ -224,26 +249,16 @@ class Trajectory:
         return lines[-1]
 
     def to_arrow(self) -> Any:
-        """A pyarrow Table: line, block, motion, feed, then pcs_X .. acs_X, mcs_X, wcs_X.
+        """A pyarrow Table: line, block, motion, feed, then pcs_X .. wcs_X .. mcs_X .. acs_X, and
+        direction_i .. direction_k.
 
         A sampled run has the column `end` besides: whether the row is the end of its move.
         """
         import pyarrow as pa
 
-        columns: dict[str, Any] = {
-            "line": self.line,
-            "block": self.block,
-            "motion": self.motion,
-            "feed": self.feed,
-        }
-        if self.sampled:
-            columns["end"] = self.end
-        for name in ("pcs", "wcs", "mcs", "acs"):
-            matrix = getattr(self, name)
-            columns |= {f"{name}_{axis}": matrix[:, i] for i, axis in enumerate(self.axes)}
-        direction = self.direction
-        columns |= {f"direction_{c}": direction[:, i] for i, c in enumerate("ijk")}
-        return pa.table(columns)
+        stretches = self.stretches or (no_moves(self.axes),)
+        tables = [s.to_arrow(self.axes, self.sampled) for s in stretches]
+        return pa.concat_tables(tables).combine_chunks()
 
     def to_pandas(self) -> Any:
         """The table of `to_arrow` as a DataFrame; needs pandas."""
@@ -258,7 +273,7 @@ class Trajectory:
         if path.suffix not in (".parquet", ".csv"):
             raise ValueError(f"{path.name}: the name must end in .parquet or .csv")
         if path.suffix == ".parquet":
-            pyarrow.parquet.write_table(self.to_arrow(), path)
+            pyarrow.parquet.write_table(self.to_arrow(), path, **PARQUET)
         else:
             pyarrow.csv.write_csv(self.to_arrow(), path)
 
@@ -300,3 +315,12 @@ class Trajectory:
             result[row : row + len(s), columns] = pick(s)
             row += len(s)
         return result
+
+
+def no_moves(axes: tuple[str, ...]) -> Stretch:
+    """A stretch without rows, for the columns of a run without moves."""
+    none, rows = np.empty(0), np.empty((0, len(axes)))
+    lines = np.empty(0, dtype=np.int64)
+    motion = np.empty(0, dtype=np.int8)
+    start = np.zeros(len(axes))
+    return Stretch(Coordinates(len(axes)), axes, "", lines, lines, motion, none, rows, rows, start)

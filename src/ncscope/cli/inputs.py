@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,27 +13,47 @@ if TYPE_CHECKING:
 
     from ncscope.channel.given import GivenRows
     from ncscope.diagnostics import Diagnostic
-    from ncscope.execution import Options, Program
     from ncscope.machine import Machine
+    from ncscope.program import Options, Program, Sink
     from ncscope.trajectory import Trajectory
 
 
-def run_program(
+@dataclass(frozen=True)
+class Inputs:
+    """A machine and a program, ready to run; found: what its files have wrong."""
+
+    machine: Machine
+    found: list[Diagnostic]
+    program: Program
+    options: Options
+
+    @property
+    def usable(self) -> bool:
+        """False where the lists have errors: on the wrong machine every number is wrong."""
+        return not any(d.is_error for d in self.found)
+
+    def run(self, sink: Sink | None = None) -> Trajectory:
+        """The run, with a progress bar for a long program."""
+        from ncscope.execution import run
+        from ncscope.trajectory import Trajectory
+
+        if not self.usable:
+            return Trajectory((), self.machine.axis_names, ok=False)
+        with progress_bar(len(self.program.source)) as progress:
+            return run(self.machine, self.program, self.options, progress, sink)
+
+
+def read_inputs(
     path: Path,
     machine_path: Path | None,
     options: Options,
     probe: Path | None = None,
     folders: Sequence[Path] = (),
     kinematics: Path | None = None,
-) -> tuple[Trajectory, list[Diagnostic], Program]:
-    """The run of a program, what the lists and the file of probe answers have wrong, and the
-    program; ends the process when a file cannot be read."""
-    from dataclasses import replace
-
+) -> Inputs:
+    """Machine, program and probe answers; ends the process when a file cannot be read."""
     from ncscope.channel.start import start_state
-    from ncscope.execution import run
     from ncscope.loading import load_program, subprogram_loader
-    from ncscope.trajectory import Trajectory
 
     machine, found = read_machine(machine_path, kinematics)
     if options.clamp is not None and options.clamp not in machine.clamp_positions:
@@ -46,14 +67,22 @@ def run_program(
         program = load_program(path)
     except OSError as error:
         fail(f"cannot read {path}: {error.strerror}")
-    options = replace(options, probe=_read_rows(probe, found))
-    if any(d.is_error for d in found):  # on the wrong machine every number would be wrong
-        return Trajectory((), machine.axis_names, ok=False), found, program
-    paths = machine.settings.search_paths
-    options = replace(options, load=subprogram_loader([path.parent, *folders], paths))
-    with progress_bar(len(program.source)) as progress:
-        result = run(machine, program, options, progress)
-    return result, found, program
+    load = subprogram_loader([path.parent, *folders], machine.settings.search_paths)
+    options = replace(options, probe=_read_rows(probe, found), load=load)
+    return Inputs(machine, found, program, options)
+
+
+def run_program(
+    path: Path,
+    machine_path: Path | None,
+    options: Options,
+    probe: Path | None = None,
+    folders: Sequence[Path] = (),
+    kinematics: Path | None = None,
+) -> tuple[Trajectory, list[Diagnostic], Program]:
+    """The run of a program, what its files have wrong, and the program."""
+    inputs = read_inputs(path, machine_path, options, probe, folders, kinematics)
+    return inputs.run(), inputs.found, inputs.program
 
 
 def _read_rows(path: Path | None, found: list[Diagnostic]) -> GivenRows | None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import sys
-from enum import StrEnum
+import os
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ncscope.cli.inputs import run_program
+from ncscope.cli.inputs import read_inputs
 from ncscope.cli.options import (
     ClampOption,
     FoldersOption,
@@ -22,25 +22,19 @@ from ncscope.cli.options import (
     read_settings,
 )
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
+from ncscope.cli.writing import Format, write_run
 
 if TYPE_CHECKING:
-    from ncscope.diagnostics import Diagnostic
     from ncscope.trajectory import Trajectory
-
-
-class Format(StrEnum):
-    """How a run is written."""
-
-    TABLE = "table"
-    JSONL = "jsonl"
-    CSV = "csv"
 
 
 def run_command(
     program: Annotated[Path, typer.Argument(help="NC program.")],
     machine: MachineOption = None,
     kinematics: KinematicsOption = None,
-    format: Annotated[Format | None, typer.Option("--format", help="table, jsonl or csv.")] = None,
+    format: Annotated[
+        Format | None, typer.Option("--format", help="table, jsonl, csv or parquet.")
+    ] = None,
     out: Annotated[Path | None, typer.Option("--out", help="File instead of the screen.")] = None,
     messages: Annotated[
         Path, typer.Option("--messages", help="Folder for the files of #MSG SAVE.")
@@ -60,6 +54,9 @@ def run_command(
             "--sample", help="Points along the moves, with this chord error: mm, degrees."
         ),
     ] = None,
+    jobs: Annotated[
+        int, typer.Option("--jobs", min=0, help="Cores for a run with --out; 0: up to two.")
+    ] = 0,
 ) -> None:
     """Run an NC program and show where the tool and every axis go."""
     from ncscope.execution import Options
@@ -75,52 +72,36 @@ def run_command(
     options = Options(
         clamp, read_levels(skip), max_blocks, strict, external=external, sample=sample
     )
-    result, found, _ = run_program(program, machine, options, probe, folders or (), kinematics)
-    found = [d for d in found if d.severity != "note"]
-    errors = write_messages(messages, result.messages, (program,))
-    ok = result.ok and not any(d.is_error for d in (*found, *errors))
+    inputs = read_inputs(program, machine, options, probe, folders or (), kinematics)
+    found = [d for d in inputs.found if d.severity != "note"]
+
+    def judge(result: Trajectory) -> tuple[Trajectory, bool]:
+        said = (*result.diagnostics, *write_messages(messages, result.messages, (program,)))
+        ok = result.ok and not any(d.is_error for d in (*found, *said))
+        return replace(result, diagnostics=said), ok
+
     if shape is Format.TABLE:
-        show_diagnostics([*found, *result.diagnostics, *errors])
-        _show_run(result, ok)
+        result, ok = judge(inputs.run())
     else:
-        _write(shape, out, result, [*found, *errors], ok)
+        cores = jobs or min(2, os.cpu_count() or 1)
+        axes, sampled = inputs.machine.axis_names, sample is not None
+        result, ok = write_run(shape, out, cores, axes, sampled, found, inputs.run, judge)
+    if shape is not Format.JSONL:
+        show_diagnostics([*found, *result.diagnostics])
+    if shape is Format.TABLE:
+        _show_run(result, ok)
     raise typer.Exit(0 if ok else 1)
 
 
 def _format(format: Format | None, out: Path | None) -> Format:
     shape = format or Format.TABLE
-    if out is not None and format is None and out.suffix in (".csv", ".jsonl"):
+    if out is not None and format is None and out.suffix in (".csv", ".jsonl", ".parquet"):
         shape = Format(out.suffix[1:])
     if out is not None and shape is Format.TABLE:
-        fail("--out writes csv or jsonl: give --format csv or --format jsonl")
+        fail("--out writes csv, jsonl or parquet: give --format csv, or name the file x.csv")
+    if out is None and shape is Format.PARQUET:
+        fail("--format parquet needs --out FILE")
     return shape
-
-
-def _write(
-    shape: Format,
-    out: Path | None,
-    result: Trajectory,
-    found: list[Diagnostic],
-    ok: bool,
-) -> None:
-    from ncscope.views.records import write_csv, write_jsonl
-
-    def write(stream) -> None:
-        if shape is Format.JSONL:
-            write_jsonl(stream, result, found, ok)
-        else:
-            write_csv(stream, result)
-
-    if shape is Format.CSV:
-        show_diagnostics([*found, *result.diagnostics])
-    if out is None:
-        write(sys.stdout)
-        return
-    try:
-        with out.open("w", encoding="utf-8", newline="") as stream:
-            write(stream)
-    except OSError as error:
-        fail(f"cannot write {out}: {error.strerror}")
 
 
 def _show_run(result: Trajectory, ok: bool) -> None:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 LONG_PROGRAM = 200_000
 """Characters from which a run shows its progress."""
+SHOWN_EVERY = 1000
+"""Blocks between two looks at the progress."""
 
 
 def show_diagnostics(items: Iterable[Diagnostic]) -> None:
@@ -52,16 +54,32 @@ def show_table(table: Table) -> None:
 
 
 @contextmanager
-def progress_bar(total: int) -> Iterator[Callable[[int], None] | None]:
-    """A progress bar on standard error for long programs, when that is a terminal."""
+def progress_bar(total: int) -> Iterator[Callable[[int, int], None] | None]:
+    """Blocks, blocks a second and time left of a long program, on a terminal only."""
     if total < LONG_PROGRAM or not sys.stderr.isatty():
         yield None
         return
-    from rich.progress import Progress
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    with Progress(console=console(stderr=True), transient=True) as bar:
-        task = bar.add_task("running", total=total)
-        yield lambda offset: bar.update(task, completed=offset)
+    columns = (
+        TextColumn("{task.fields[blocks]:,} blocks"),
+        BarColumn(),
+        TextColumn("{task.fields[rate]:,.0f} blocks/s"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console(stderr=True), transient=True) as bar:
+        task = bar.add_task("run", total=total, blocks=0, rate=0.0)
+        shown = 0
+
+        def show(offset: int, blocks: int) -> None:
+            nonlocal shown
+            if blocks - shown < SHOWN_EVERY:
+                return
+            shown = blocks
+            rate = blocks / max(bar.tasks[0].elapsed or 0.0, 1e-3)
+            bar.update(task, completed=offset, blocks=blocks, rate=rate)
+
+        yield show
 
 
 def announce_compiling() -> None:

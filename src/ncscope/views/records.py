@@ -9,10 +9,12 @@ import csv
 import io
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import cache
 from typing import Any, TextIO
 
 import numpy as np
 import orjson
+from numpy.typing import NDArray
 
 from ncscope.diagnostics import Diagnostic
 from ncscope.frames import Array
@@ -25,39 +27,79 @@ ROWS = 20_000
 SYSTEMS = ("pcs", "wcs", "mcs", "acs")
 
 
-def write_jsonl(out: TextIO, result: Trajectory, before: Iterable[Diagnostic], ok: bool) -> None:
-    """Moves, diagnostics, messages, and the end with the status; one object a line.
+class NewAxis(Exception):
+    """A move has an axis for which the file has no column."""
+
+
+class JsonlWriter:
+    """One object a line: diagnostics from before the run, moves, diagnostics, messages, the end.
 
     A point on the way to the end of a move has the kind `point` and the index of its move.
     """
-    for item in before:
-        out.write(_json(diagnostic_record(item)))
-    index = 0
-    for stretch in result.stretches:
-        for text in _json_moves(stretch, index):
-            out.write(text)
-        index += int(stretch.end.sum())
-    for item in result.diagnostics:
-        out.write(_json(diagnostic_record(item)))
-    for message in result.messages:
-        out.write(_json({"kind": "message", "file": message.file, "text": message.text}))
-    out.write(_json({"kind": "end", "status": "ok" if ok else "error", "moves": index}))
+
+    def __init__(self, out: TextIO, before: Iterable[Diagnostic] = ()) -> None:
+        self.out, self.moves = out, 0
+        self._diagnostics(before)
+
+    def write(self, stretch: Stretch) -> None:
+        for text in _json_moves(stretch, self.moves):
+            self.out.write(text)
+        self.moves += int(stretch.end.sum())
+
+    def finish(self, result: Trajectory | None, ok: bool) -> None:
+        """What a run says at its end; without a result it was broken off."""
+        if result is not None:
+            self._diagnostics(result.diagnostics)
+            for message in result.messages:
+                record = {"kind": "message", "file": message.file, "text": message.text}
+                self.out.write(_json(record))
+        status = "ok" if ok else "error"
+        self.out.write(_json({"kind": "end", "status": status, "moves": self.moves}))
+
+    def _diagnostics(self, items: Iterable[Diagnostic]) -> None:
+        for item in items:
+            self.out.write(_json(diagnostic_record(item)))
 
 
-def write_csv(out: TextIO, result: Trajectory) -> None:
+class CsvWriter:
     """A header line, then a line a move; empty where an axis was not in the channel.
 
     A sampled run has a last column `end`: 1 at the end of a move, 0 on the way there.
+    `write` raises NewAxis for a stretch with an axis that is none of `axes`.
     """
-    names = [f"{s}_{a}" for s in SYSTEMS for a in _columns(s, result.axes)]
-    direction = [f"direction_{c}" for c in "ijk"]
-    head = ["file", "line", "block", "motion", "feed"]
-    csv.writer(out, lineterminator="\n").writerow(
-        [*head, *names, *direction, *(["end"] if result.sampled else [])]
-    )
+
+    def __init__(self, out: TextIO, axes: tuple[str, ...], sampled: bool = False) -> None:
+        self.out, self.axes, self.sampled = out, axes, sampled
+        names = [f"{s}_{a}" for s in SYSTEMS for a in _columns(s, axes)]
+        direction = [f"direction_{c}" for c in "ijk"]
+        head = ["file", "line", "block", "motion", "feed"]
+        csv.writer(out, lineterminator="\n").writerow(
+            [*head, *names, *direction, *(["end"] if sampled else [])]
+        )
+
+    def write(self, stretch: Stretch) -> None:
+        if not set(stretch.axes) <= set(self.axes):
+            raise NewAxis
+        for text, ends in _csv_moves(stretch, self.axes):
+            self.out.write(_with_ends(text, ends) if self.sampled else text)
+
+    def finish(self, result: Trajectory | None, ok: bool) -> None:
+        """Nothing follows the moves."""
+
+
+def write_jsonl(out: TextIO, result: Trajectory, before: Iterable[Diagnostic], ok: bool) -> None:
+    """A finished run as `JsonlWriter` writes it."""
+    writer = JsonlWriter(out, before)
     for stretch in result.stretches:
-        for text in _csv_moves(stretch, result.axes):
-            out.write(text)
+        writer.write(stretch)
+    writer.finish(result, ok)
+
+
+def write_csv(out: TextIO, result: Trajectory) -> None:
+    """A finished run as `CsvWriter` writes it."""
+    writer = CsvWriter(out, result.axes, result.sampled)
+    for stretch in result.stretches:
+        writer.write(stretch)
 
 
 def move_record(result: Trajectory, index: int) -> str:
@@ -88,7 +130,7 @@ def _json(record: Any) -> str:
 
 def _json_moves(s: Stretch, first: int) -> Iterator[str]:
     """Chunks of lines, one object a move."""
-    template = _json_template(s)
+    template = _json_template(s.file, s.axes, s.direction is not None)
     index = first + np.cumsum(s.end) - s.end
     for start, stop in _chunks(len(s)):
         whole = np.column_stack([index[start:stop], s.line[start:stop], s.block[start:stop]])
@@ -103,29 +145,29 @@ def _with_points(text: str, ends: Iterable[bool]) -> str:
     return "".join(line if end else point + line[len(move) :] for line, end in lines)
 
 
-def _json_template(s: Stretch) -> Template:
+@cache
+def _json_template(file: str, axes: tuple[str, ...], directed: bool) -> Template:
     gap = "\0"
 
     def system(name: str) -> str:
-        keys = (_json(axis).strip() for axis in _columns(name, s.axes))
+        keys = (_json(axis).strip() for axis in _columns(name, axes))
         return '"{}":{{{}}}'.format(name, ",".join(f"{key}:{gap}" for key in keys))
 
-    direction = "null" if s.direction is None else f"[{gap},{gap},{gap}]"
+    direction = f"[{gap},{gap},{gap}]" if directed else "null"
     row = (
-        f'{{"kind":"move","index":{gap},"file":{_json(s.file).strip()},"line":{gap},"block":{gap},'
+        f'{{"kind":"move","index":{gap},"file":{_json(file).strip()},"line":{gap},"block":{gap},'
         f'"motion":"{gap}","feed":{gap},{system("pcs")},{system("wcs")},{system("mcs")},'
         f'"direction":{direction},{system("acs")}}}\n'
     )
     return Template(tuple(row.split(gap)), MOTIONS, "null")
 
 
-def _csv_moves(s: Stretch, axes: tuple[str, ...]) -> Iterator[str]:
+def _csv_moves(s: Stretch, axes: tuple[str, ...]) -> Iterator[tuple[str, NDArray[np.bool_]]]:
     template = _csv_template(s.file, axes)
     for start, stop in _chunks(len(s)):
         whole = np.column_stack([s.line[start:stop], s.block[start:stop]])
         matrix = _matrix(s, axes, start, stop, direction_last=True)
-        text = template.rows(whole, s.motion[start:stop], matrix)
-        yield text if s.ends is None else _with_ends(text, s.ends[start:stop])
+        yield template.rows(whole, s.motion[start:stop], matrix), s.end[start:stop]
 
 
 def _with_ends(text: str, ends: Iterable[bool]) -> str:
@@ -134,6 +176,7 @@ def _with_ends(text: str, ends: Iterable[bool]) -> str:
     return "".join(f"{line},{end:d}\n" for line, end in lines)
 
 
+@cache
 def _csv_template(file: str, axes: tuple[str, ...]) -> Template:
     quoted = io.StringIO()
     csv.writer(quoted, lineterminator="").writerow([file])

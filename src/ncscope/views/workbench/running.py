@@ -82,7 +82,7 @@ def run_task(
             machine,
             Program(source),
             replace(task.options, load=load, sample=SAMPLE if length < SAMPLED_UP_TO else None),
-            lambda offset: progress(offset / length),
+            lambda offset, _: progress(offset / length),
         )
     ends = result.at_ends()
     return Outcome(machine, result, ends, found, files, inspect(ends))
