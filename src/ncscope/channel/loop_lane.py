@@ -61,10 +61,13 @@ class Piece:
 
 
 class _Plans:
-    """The compiled steps of one layout for one channel configuration."""
+    """The compiled steps of one layout for one channel configuration.
+
+    layout is kept, because plans are found by its identity.
+    """
 
     def __init__(self, layout: Layout, units: Units) -> None:
-        self.units = units
+        self.layout, self.units = layout, units
         self.steps: list[Step | None] = [None] * len(layout.entries)
         self.heat = [0] * len(layout.entries)
         self._lines: dict[int, int] = {}
