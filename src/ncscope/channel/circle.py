@@ -186,6 +186,8 @@ def _with_radius(draft: Draft, circle: _Circle, span: Span) -> Arc:
     if distance < SAME_POINT:
         hint = "give the centre with I, J, K"
         draft.fail("20034", span, "a full circle cannot be given by its radius", hint)
+    if abs(radius) >= 1e150:
+        draft.fail("21883", span, "the arc is too large to be computed")
     centre = centre_of_radius(circle.start, circle.end, radius, circle.clockwise)
     if centre is None:
         what = f"start and end are {distance:.4f} mm apart, farther than twice the radius"
