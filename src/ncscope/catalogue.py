@@ -277,6 +277,7 @@ CATALOGUE: dict[str, Entry] = {
     "N2044": Entry("warning", "Rows of probe answers or jog increments were not used."),
     "N2050": Entry("error", "#ECS needs the tool direction of an active transformation."),
     "N2051": Entry("error", "A system of #CS ON lies between the stack and the machine system."),
+    "N2099": Entry("error", "A block number is too large."),
     "N2090": Entry("warning", "The program gave a warning of its own (#ERROR with RC=0)."),
     "N2091": Entry("error", "The program stopped with an error of its own (#ERROR)."),
     "N2092": Entry("warning", "A requested axis is in the channel already."),

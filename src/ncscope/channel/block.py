@@ -72,11 +72,22 @@ def execute(machine: Machine, state: State, block: tree.Block) -> Step:
     )
 
 
+LARGEST_NUMBER = 10**15
+
+
+def _block_number(draft: Draft, block: tree.Block) -> int | None:
+    if block.number is None:
+        return None
+    number = round(evaluate_number(draft, block.number))
+    if abs(number) > LARGEST_NUMBER:
+        draft.fail("N2099", block.number.span, f"the block number {number:.3g} is too large")
+    return number
+
+
 def _execute(draft: Draft, block: tree.Block) -> None:
     """The order of effects inside a block (TF5200 programming manual)."""
     # 1. Block number; what is not supported yet is refused by name.
-    number = None if block.number is None else round(evaluate_number(draft, block.number))
-    draft.state = replace(draft.state, block=number)
+    draft.state = replace(draft.state, block=_block_number(draft, block))
     _refuse_axis_commands(draft, block)
     # 2. # commands and declarations.
     for declaration in block.declarations:
