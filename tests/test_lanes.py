@@ -41,6 +41,13 @@ PLAIN = st.tuples(
     st.sampled_from(["", "F1000", " F20.5"]),
     st.sampled_from([" ", ""]),
 ).map(lambda p: p[0] + p[1] + p[4].join(p[2]) + p[3])
+SYSTEMS = st.sampled_from(
+    [
+        "#TRAFO STACK OFF", "#TRANSFORM [B] [MCS] [1,2,3]", "XV.A.TRANSFORM.Y", "#CS DEL ALL",
+        "#CS MODE OFF [AXES_OFFSETS_LAYER_SPECIFIC]", "G92 A5", "#CS OFF ALL", "#CS SELECT [A]",
+        "#CS ADD [A] [1,2,3,0,10,0]", "#CS ADD [B] [0,0,5,0,0,40]", "#CS ON [1,2,3,4,5,6]",
+    ]
+)  # fmt: skip
 OTHER = st.sampled_from(
     [
         "", "   ", "; comment", "(open comment X1", "G54", "G53 X1", "G92 X5", "G70", "G71 Y2",

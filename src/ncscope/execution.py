@@ -15,7 +15,7 @@ from ncscope.channel.draft import Message
 from ncscope.channel.flow import Walker, open_warnings, too_many
 from ncscope.channel.given import GivenRows
 from ncscope.channel.loop_lane import LoopLane, Visited
-from ncscope.channel.start import start_state
+from ncscope.channel.start import start_state, with_stack
 from ncscope.channel.state import CallRequest, Return, Running, State
 from ncscope.channel.subprograms import Passage, call, leave, nesting_warning, return_in_main
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
@@ -200,6 +200,7 @@ class _Loop:
         self.machine, self.source, self.options = machine, source, options
         self.progress, self.sink, self.reached = progress, sink, 0
         state = start_state(machine, options.clamp, options.probe, options.external)
+        state, found = with_stack(machine, state)
         self.state = replace(state, running=Running(file=source.name))
         self.stretches: list[Stretch] = []
         self.taken = 0
@@ -218,6 +219,7 @@ class _Loop:
         self.loops = LoopLane() if options.bulk is not False else None
         long = len(source) >= BULK_FROM
         self.bulk = long if options.bulk is None else options.bulk
+        self.add(found)
 
     @property
     def over(self) -> bool:

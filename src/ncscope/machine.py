@@ -15,6 +15,7 @@ from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.kinematics.readings import STANDARD, Reading
 
 if TYPE_CHECKING:
+    from ncscope.diagnostics import Span
     from ncscope.kinematics.step import Builder, KinematicStep
 
 ZERO_GROUPS = 97
@@ -168,6 +169,28 @@ class ConfiguredSystem:
 
 
 @dataclass(frozen=True, slots=True)
+class TransformationStack:
+    """Coordinate systems and a kinematics that are switched together (#TRAFO STACK).
+
+    systems: kind (`#BCS`, `#ACS`, `#CS`) and id, from bottom to top. kinematics: ids of the first
+    and second step, 0 for none.
+    """
+
+    name: str
+    systems: tuple[tuple[str, int | str], ...] = ()
+    kinematics: tuple[int, int] = (0, 0)
+    origin: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class StackAtStart:
+    """The transformation stack that is active from program start (P-CHAN-00757)."""
+
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Machine:
     """A channel with its axes, offsets, tools and kinematics; frozen.
 
@@ -180,6 +203,7 @@ class Machine:
     `kinematic_reading`: how parameters of type 91 are understood where the manual is open.
     `systems`: the configured coordinate systems by their id, for #CS, #ACS and #BCS alike.
     `external`: the V.E variables that are declared, by name.
+    `stacks`: the configured transformation stacks by name; `stack_at_start`: P-CHAN-00757.
     """
 
     name: str = "XYZ"
@@ -196,6 +220,8 @@ class Machine:
     kinematic_reading: Reading = STANDARD
     systems: Mapping[int | str, ConfiguredSystem] = field(default_factory=dict)
     external: Mapping[str, ExternalVariable] = field(default_factory=dict)
+    stacks: Mapping[str, TransformationStack] = field(default_factory=dict)
+    stack_at_start: StackAtStart | None = None
 
     @property
     def axis_names(self) -> tuple[str, ...]:

@@ -12,8 +12,11 @@ from dataclasses import replace
 import numpy as np
 
 from ncscope.channel.state import SelectedTool, State
-from ncscope.coordinates import ActiveTool, Level, Offset
+from ncscope.coordinates import ActiveTool, Offset
 from ncscope.machine import OffsetRecord, Tool
+
+MAIN_AXES = 3
+NO_OFFSET = Offset("", (), ())
 
 
 def zero_name(index: int) -> str:
@@ -41,7 +44,7 @@ def set_offsets(
     state: State, kind: str, name: str, values: Mapping[int, float], place: str, add: bool = False
 ) -> State:
     """Values of one kind for the axes given; other axes keep theirs. `add` adds to the old."""
-    held = state.coordinates.top.offset(kind)
+    held = held_offset(state, kind)
     n = len(state.axes)
     new = list(held.values) if held else [0.0] * n
     origins: list[str | None] = list(held.origins) if held else [None] * n
@@ -54,7 +57,7 @@ def set_offsets(
 
 def clear_preset(state: State, axes: frozenset[int]) -> State:
     """#PRESET: the position preset of these axes is gone in the innermost level."""
-    held = state.coordinates.top.offset("pset")
+    held = held_offset(state, "pset")
     if held is None:
         return state
     values = tuple(0.0 if i in axes else v for i, v in enumerate(held.values))
@@ -69,7 +72,7 @@ def preset(state: State, values: Mapping[int, float], place: str) -> State:
     The old preset is replaced, not accumulated: it already counts in the present value.
     Neither a contour rotation nor a mirror may be active; a scale may.
     """
-    held = state.coordinates.top.offset("pset")
+    held = held_offset(state, "pset")
     shown = state.position.program
     factors = state.coordinates.contour.factors(len(state.axes))
     new = {
@@ -140,7 +143,45 @@ def _offset_from_record(state: State, name: str, record: OffsetRecord, place: st
     return Offset(name, tuple(record.effective(i) for i in indices), origins, place)
 
 
+def held_offset(state: State, kind: str) -> Offset | None:
+    """What a new offset of this kind replaces: that of the innermost level.
+
+    Where the axes beyond the third have one offset for all levels, theirs is that of level 0.
+    """
+    levels = state.coordinates.levels
+    if not shares_offsets(state):
+        return levels[-1].offset(kind)
+    return _spliced(levels[-1].offset(kind), levels[0].offset(kind))
+
+
+def shares_offsets(state: State) -> bool:
+    """Whether level 0 holds the offsets of the axes beyond the third for all levels
+    (P-CHAN-00397, AXES_OFFSETS_LAYER_SPECIFIC)."""
+    above = len(state.coordinates.levels) > 1 and len(state.axes) > MAIN_AXES
+    return above and not state.system_mode.per_level
+
+
 def _with_offset(state: State, kind: str, offset: Offset | None) -> State:
-    top: Level = state.coordinates.top.with_offset(kind, offset)
-    levels = (*state.coordinates.levels[:-1], top)
-    return state.with_coordinates(replace(state.coordinates, levels=levels), keep="level")
+    chain = state.coordinates
+    if not shares_offsets(state):
+        levels = (*chain.levels[:-1], chain.top.with_offset(kind, offset))
+        return state.with_coordinates(replace(chain, levels=levels), keep="level")
+    base, *between, top = chain.levels
+    base = base.with_offset(kind, _spliced(base.offset(kind), offset))
+    top = top.with_offset(kind, _spliced(offset, None))
+    return state.with_coordinates(replace(chain, levels=(base, *between, top)))
+
+
+def _spliced(main: Offset | None, further: Offset | None) -> Offset | None:
+    """The main axes of one offset and the further axes of another one; None without any value."""
+    n = len((main or further or NO_OFFSET).values)
+    parts = [(part, range(*bounds)) for part, bounds in ((main, (0, 3)), (further, (3, n))) if part]
+    used = [(p, own) for p, own in parts if any(p.values[i] or p.origins[i] for i in own)]
+    if not used:
+        return None
+    values, origins = [0.0] * n, [None] * n  # type: tuple[list[float], list[str | None]]
+    for part, own in used:
+        for i in own:
+            values[i], origins[i] = part.values[i], part.origins[i]
+    names = dict.fromkeys(part.name for part, _ in used)
+    return Offset(", ".join(names), tuple(values), tuple(origins), used[0][0].selected_at)

@@ -1,8 +1,10 @@
-"""What the measuring variables read (TF5200 coordinate systems and offsets)."""
+"""What the variables of measuring, conversion and selected systems read (TF5200)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+
+import numpy as np
 
 from ncscope.channel.draft import Draft
 from ncscope.channel.rows import Reference
@@ -18,3 +20,31 @@ def measured(field: str) -> Callable[[Draft, Reference], float]:
 
 def was_measured(draft: Draft, ref: Reference) -> float:
     return float(draft.state.axis_names[ref.axis] in draft.state.measured)
+
+
+def converted(variable: str, command: str) -> Callable[[Draft, Reference], float]:
+    """The result of the last conversion by this command; there is none before it."""
+
+    def read(draft: Draft, ref: Reference) -> float:
+        key = (variable, draft.state.axis_names[ref.axis])
+        if key not in draft.state.converted:
+            draft.fail("20097", ref.span, f"{ref.text} has no value before {command}")
+        return draft.shown(ref.axis, draft.state.converted[key])
+
+    return read
+
+
+def selected_origin(axis: int) -> Callable[[Draft, Reference], float]:
+    """Where the zero of the innermost system lies in the machine system; 0 without a system."""
+
+    def read(draft: Draft, ref: Reference) -> float:
+        chain = draft.state.coordinates
+        place = len(chain.levels) - 1
+        if place == 0:
+            return 0.0
+        below = np.zeros(chain.axis_count)
+        below[:3] = chain.top.frame.shift
+        origin = chain.at_level(place - 1).to_mcs(below)
+        return float(origin[axis]) / draft.modes.length_factor
+
+    return read

@@ -9,10 +9,21 @@ from dataclasses import replace
 import numpy as np
 
 from ncscope.channel import offsets
+from ncscope.channel.commands.transformation_stack import activate_at_start
+from ncscope.channel.draft import BlockError, Draft
 from ncscope.channel.given import GivenRows
 from ncscope.channel.modulo import modulo_axes
-from ncscope.channel.state import Kinematics, LengthAxis, Measuring, Position, State, Stored
+from ncscope.channel.state import (
+    Kinematics,
+    LengthAxis,
+    Measuring,
+    Position,
+    State,
+    Stored,
+    SystemMode,
+)
 from ncscope.coordinates import Coordinates
+from ncscope.diagnostics import Diagnostic
 from ncscope.machine import Machine, OffsetRecord
 
 EXTERNAL_NAME = re.compile(r"V\.E\.([^\s\[\]=]+)(?:\[(\d{1,6})\])?")
@@ -41,6 +52,8 @@ def start_state(
         tools=machine.tools,
         measuring=Measuring(machine.settings.measuring_type, machine.settings.probe_must_answer),
         probe=probe,
+        stacks=machine.stacks,
+        system_mode=SystemMode(per_level=machine.settings.offsets_per_level),
         length_axis=LengthAxis(2, 1.0) if machine.settings.tool_length_stays else None,
         variables=_external(machine, external or {}),
     )
@@ -93,3 +106,16 @@ def _with_value(old: Stored | None, name: str, index: str | None, value: float |
     items = list(old.value)
     items[int(index)] = value
     return replace(old, value=tuple(items))
+
+
+def with_stack(machine: Machine, state: State) -> tuple[State, tuple[Diagnostic, ...]]:
+    """The start state under the transformation stack of P-CHAN-00757, and what is wrong with it."""
+    start = machine.stack_at_start
+    if start is None:
+        return state, ()
+    draft = Draft(machine, state, start.span.place)
+    try:
+        activate_at_start(draft, start.span, machine.stacks[start.name])
+    except BlockError as error:
+        return state, (error.diagnostic,)
+    return draft.state, tuple(draft.diagnostics)

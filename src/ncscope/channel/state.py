@@ -11,7 +11,7 @@ from ncscope.coordinates import Coordinates
 from ncscope.diagnostics import Span
 from ncscope.frames import Array, Frame
 from ncscope.kinematics.parameters import KinematicParameters
-from ncscope.machine import Axis, Tool, ZeroOffsets
+from ncscope.machine import Axis, Tool, TransformationStack, ZeroOffsets
 
 PROGRAM_STEP = -1
 """Stands for the PCS transformation where the kinematic steps are numbered 0 and 1."""
@@ -141,10 +141,14 @@ class Kinematics:
 
 @dataclass(frozen=True, slots=True)
 class SystemMode:
-    """What #CS MODE set; None stands for the channel parameter (P-CHAN-00393, P-CHAN-00394)."""
+    """What #CS MODE set; None stands for the channel parameter (P-CHAN-00393, P-CHAN-00394).
+
+    per_level: every level keeps offsets of its own for the axes beyond the third (P-CHAN-00397).
+    """
 
     sequence: str | None = None
     fixed: bool | None = None
+    per_level: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,10 +261,13 @@ class State:
     length_axis: None lets the tool length follow the plane. variables: `P5`, `V.P.NAME` -> value.
     definitions: stored coordinate systems by kind (`#CS`, `#ACS`, `#BCS`) and id, in the order of
     their definition.
-    systems: the stack of #CS ADD from bottom to top; selected: how many of them act.
+    systems: the stack of #CS ADD from bottom to top; selected: how many of them act. stacks: the
+    transformation stacks by name.
     parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
     values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
-    #MCS is on. measured: what G100 measured, by axis name. probe: the answers that are given.
+    #MCS is on. converted: what #TRANSFORM and its relatives computed, by variable and axis name, mm
+    or degrees. measured: what G100 measured, by axis name. probe: the answers that are
+    given.
     circle: the corrected I, J, K and R of the last arc, mm. message_file: where #MSG SAVE writes.
     called_files: what #FILE NAME set for M6 and G80 ... running: the program level.
     """
@@ -280,12 +287,14 @@ class State:
     definitions: Mapping[tuple[str, int | str], SystemDefinition] = field(default_factory=dict)
     systems: tuple[NamedSystem, ...] = ()
     selected: int = 0
+    stacks: Mapping[str, TransformationStack] = field(default_factory=dict)
     macros: Mapping[str, str] = field(default_factory=dict)
     parked: Mapping[int, float] = field(default_factory=dict)
     turn: Turn = field(default_factory=Turn)
     scale_factors: Mapping[int, float] = field(default_factory=dict)
     suspended: Suspended | None = None
     system_mode: SystemMode = field(default_factory=SystemMode)
+    converted: Mapping[tuple[str, str], float] = field(default_factory=dict)
     measured: Mapping[str, Measured] = field(default_factory=dict)
     circle: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     measuring: Measuring = field(default_factory=Measuring)

@@ -83,7 +83,7 @@ def store_group(draft: Draft, index: int, record: OffsetRecord) -> None:
 
 def active_zero(draft: Draft) -> Offset:
     n = len(draft.state.axes)
-    held = draft.state.coordinates.top.offset("zero")
+    held = offsets.held_offset(draft.state, "zero")
     name = offsets.zero_name(draft.state.zero_index)
     return held or Offset(name, (0.0,) * n, (None,) * n, draft.place)
 
@@ -108,7 +108,11 @@ def _write_np_default(draft: Draft, ref: Reference, value: float) -> None:
 
 def _absolute(draft: Draft, ref: Reference) -> float:
     """V.A.ABS: the value of the innermost system with its offsets, tool included."""
-    level = draft.state.coordinates.level_from_program(draft.state.position.program)
+    state = draft.state
+    chain = state.coordinates
+    if ref.axis >= offsets.MAIN_AXES and offsets.shares_offsets(state):
+        chain = replace(chain, levels=chain.levels[:1])
+    level = chain.level_from_program(state.position.program)
     return draft.shown(ref.axis, float(level[ref.axis]))
 
 
@@ -133,9 +137,9 @@ def _machine_axis(draft: Draft, ref: Reference) -> float:
 
 def _offset_reader(kind: str) -> Callable[[Draft, Reference], float]:
     def read(draft: Draft, ref: Reference) -> float:
-        levels = draft.state.coordinates.levels
-        level = levels[0] if kind in ("clamp", "measure") else levels[-1]
-        offset = level.offset(kind)
+        base = draft.state.coordinates.levels[0]
+        shared = kind in ("clamp", "measure")
+        offset = base.offset(kind) if shared else offsets.held_offset(draft.state, kind)
         return draft.shown(ref.axis, offset.values[ref.axis]) if offset else 0.0
 
     return read
@@ -196,6 +200,24 @@ VARIABLES: dict[str, Row] = {
     ),
     "V.G.MEAS_TYPE": Row(plain(lambda d: d.state.measuring.type), None, "measuring type"),
     **axis_rows("V.A.MERF", Row(readers.was_measured, None, "1 when the axis has been measured")),
+    **{
+        f"V.G.SELECTED_CS.TRANS.{letter}": Row(
+            readers.selected_origin(axis),
+            None,
+            f"zero of the innermost system in the MCS, {letter}",
+        )
+        for axis, letter in enumerate("XYZ")
+    },
+    **axis_rows(
+        "V.A.TRANSFORM",
+        Row(readers.converted("TRANSFORM", "#TRANSFORM"), None, "result of #TRANSFORM"),
+    ),
+    **axis_rows(
+        "V.A.MCS", Row(readers.converted("MCS", "#WCS TO MCS"), None, "result of #WCS TO MCS")
+    ),
+    **axis_rows(
+        "V.A.WCS", Row(readers.converted("WCS", "#MCS TO WCS"), None, "result of #MCS TO WCS")
+    ),
     **axis_rows("V.A.MANUAL_OFFSETS", Row(lambda d, r: 0.0, None, "manual offsets: no jog here")),
     **axis_rows("V.A.PSET", Row(_offset_reader("pset"), None, "position preset (#PSET)")),
     **axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ncscope.diagnostics import Diagnostic, Span
-from ncscope.lists import axes, files, kinematic_sets, records
+from ncscope.lists import axes, coordinate_systems, files, kinematic_sets, records
 from ncscope.lists.axes import AxisRecord, ChannelAxes
 from ncscope.lists.external import external_variables
 from ncscope.lists.files import ListFile
@@ -94,6 +94,8 @@ def assemble(
     found.extend(problems)
     of_program, problems = kinematic_sets.by_id(sets, kinematic_sets.PROGRAM_STEP)
     found.extend(problems)
+    systems = coordinate_systems.configured(by_kind["channel"])
+    found.extend(systems.diagnostics)
     own = _axes(channel, axis_records)
     machine = Machine(
         name,
@@ -107,6 +109,9 @@ def assemble(
         second,
         of_program,
         external=declared,
+        systems=systems.systems,
+        stacks=systems.stacks,
+        stack_at_start=systems.start,
     )
     every = [
         *(r for part in by_kind.values() for r in part),

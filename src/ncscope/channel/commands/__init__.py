@@ -8,6 +8,7 @@ from ncscope.channel import corner, manual
 from ncscope.channel.commands import (
     axes,
     contour,
+    conversion,
     cycles,
     effector_system,
     errors,
@@ -26,6 +27,7 @@ from ncscope.channel.commands import (
     systems,
     tool_orientation,
     transformation,
+    transformation_stack,
 )
 from ncscope.channel.commands import declarations as declared
 
@@ -46,6 +48,8 @@ COMMANDS = {
     **point_to_point.COMMANDS,
     **tool_orientation.COMMANDS,
     **program_transformation.COMMANDS,
+    **transformation_stack.COMMANDS,
+    **conversion.COMMANDS,
     **axes.COMMANDS,
     **messages.COMMANDS,
     **declared.COMMANDS,

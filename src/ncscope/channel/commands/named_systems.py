@@ -8,6 +8,7 @@ Source: TF5200 programming manual, #CS ADD and following
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NoReturn
 
 import numpy as np
 
@@ -139,8 +140,7 @@ def _wanted(draft: Draft, node: tree.Name | tree.Text) -> int:
     """How many systems of the stack act after the selection of this name."""
     name = text_of(node)
     if name.upper() == "IMCS":
-        what = "IMCS belongs to a kinematics of two steps, and none is active"
-        draft.fail("21601", node.span, what)
+        refuse_intermediate(draft, node)
     if name.upper() != "MCS":
         return index_of(draft, node) + 1
     below = len(draft.state.coordinates.levels) - 1 - draft.state.selected
@@ -148,6 +148,15 @@ def _wanted(draft: Draft, node: tree.Name | tree.Text) -> int:
         what = "MCS cannot be selected: a system that was switched on with #CS ON lies above it"
         draft.fail("N2051", node.span, what, "switch it off first (#CS OFF, #ACS OFF, #BCS OFF)")
     return 0
+
+
+def refuse_intermediate(draft: Draft, node: tree.Name | tree.Text) -> NoReturn:
+    """IMCS: the system between two kinematic steps."""
+    if draft.state.kinematics.active[1]:
+        what = "IMCS, the system between two kinematic steps, is not supported yet"
+        draft.fail("N2001", node.span, what)
+    what = "IMCS belongs to a kinematics of two steps, and none is active"
+    draft.fail("21601", node.span, what)
 
 
 def _drop_top(draft: Draft, command: tree.HashCommand) -> None:

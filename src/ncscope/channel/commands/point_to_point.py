@@ -12,7 +12,7 @@ from ncscope.channel.draft import Draft
 from ncscope.language import tree
 
 SYSTEMS = frozenset({"CS", "ACS", "BCS", "ECS"})
-ALLOWED = frozenset({"DEF", "MODE"})
+ALLOWED = frozenset({"DEF", "MODE", "ADD"})
 """Of the commands of coordinate systems: they store something and switch nothing."""
 
 

@@ -26,8 +26,8 @@ def mode_on(draft: Draft, command: tree.HashCommand) -> None:
         mode = replace(mode, sequence=sequence)
     if "ROTATION_MODE_FIXED" in items:
         mode = replace(mode, fixed=True)
-    if "AXES_OFFSETS_LAYER_SPECIFIC" in items and not draft.machine.settings.offsets_per_level:
-        _global_offsets(draft, command)
+    if "AXES_OFFSETS_LAYER_SPECIFIC" in items:
+        mode = replace(mode, per_level=True)
     draft.state = replace(draft.state, system_mode=mode)
 
 
@@ -40,7 +40,8 @@ def mode_off(draft: Draft, command: tree.HashCommand) -> None:
     if "ROTATION_MODE_FIXED" in items:
         mode = replace(mode, fixed=False)
     if "AXES_OFFSETS_LAYER_SPECIFIC" in items:
-        _global_offsets(draft, command)
+        _check_levels(draft, command)
+        mode = replace(mode, per_level=False)
     draft.state = replace(draft.state, system_mode=mode)
 
 
@@ -63,9 +64,16 @@ def _mode_items(draft: Draft, command: tree.HashCommand) -> dict[str, str]:
     return found
 
 
-def _global_offsets(draft: Draft, command: tree.HashCommand) -> None:
-    what = "one offset of the further axes for all systems is not supported yet"
-    draft.fail("N2001", command.span, what, "leave AXES_OFFSETS_LAYER_SPECIFIC switched on")
+def _check_levels(draft: Draft, command: tree.HashCommand) -> None:
+    """What levels already hold for the axes beyond the third could not be told from one common
+    offset afterwards."""
+    for level in draft.state.coordinates.levels[1:]:
+        if any(any(offset.values[3:]) for _, offset in level.offsets):
+            what = f"{level.name} has offsets of its own for the axes beyond the third"
+            hint = (
+                "write #CS MODE OFF [AXES_OFFSETS_LAYER_SPECIFIC] before the system is switched on"
+            )
+            draft.fail("N2052", command.span, what, hint)
 
 
 COMMANDS = {"CS MODE ON": mode_on, "CS MODE OFF": mode_off}

@@ -37,7 +37,7 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     if numbers is not None:
         definition = _store(draft, command, id, numbers, temporary=id is None)
     else:
-        definition = _stored(draft, command, id)
+        definition = stored(draft, command.span, _kind(command), id)
     activate(draft, command.span, definition)
 
 
@@ -81,7 +81,7 @@ def _deactivate(draft: Draft, span: Span, kind: str, count: int) -> None:
     unlink(draft, span, places)
     for level in held[-count:]:
         if level.temporary:
-            _forget(draft, kind, level.id)
+            forget(draft, kind, level.id)
 
 
 def _arguments(
@@ -125,7 +125,7 @@ def _store(
         what = f"only {MAX_DEFINITIONS} coordinate systems can be defined"
         draft.fail("21234", command.span, what, f"use one of the ids {_listed(held)} again")
     definition = SystemDefinition(kind, id, numbers, draft.place, temporary)
-    _forget(draft, kind, id)
+    forget(draft, kind, id)
     definitions = {**draft.state.definitions, (kind, id): definition}
     draft.state = replace(draft.state, definitions=definitions)
     return definition
@@ -136,18 +136,18 @@ def _definitions(draft: Draft, kind: str) -> dict[Id, SystemDefinition]:
     return {id: d for (k, id), d in draft.state.definitions.items() if k == kind}
 
 
-def _forget(draft: Draft, kind: str, id: Id) -> None:
+def forget(draft: Draft, kind: str, id: Id) -> None:
+    """Without the stored definition, if there is one."""
     kept = {key: d for key, d in draft.state.definitions.items() if key != (kind, id)}
     draft.state = replace(draft.state, definitions=kept)
 
 
-def _stored(draft: Draft, command: tree.HashCommand, id: Id | None) -> SystemDefinition:
+def stored(draft: Draft, span: Span, kind: str, id: Id | None) -> SystemDefinition:
     """What the program defined, else what the channel list configures under this id."""
-    kind = _kind(command)
     held = _definitions(draft, kind)
     if id is None:
         if not held:
-            draft.fail("20821", command.span, "no coordinate system has been defined", FORM)
+            draft.fail("20821", span, "no coordinate system has been defined", FORM)
         return list(held.values())[-1]
     if id in held:
         return held[id]
@@ -155,7 +155,7 @@ def _stored(draft: Draft, command: tree.HashCommand, id: Id | None) -> SystemDef
     if id not in configured:
         known = _listed([*held, *(i for i in configured if i not in held)])
         what = f"coordinate system {id} is not defined; defined: {known or 'none'}"
-        draft.fail("20821", command.span, what, FORM)
+        draft.fail("20821", span, what, FORM)
     return SystemDefinition(kind, id, configured[id].values, configured[id].origin)
 
 

@@ -1,0 +1,2 @@
+N10 #CS ON [test2]
+N20 M30

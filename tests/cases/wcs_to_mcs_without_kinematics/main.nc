@@ -1,0 +1,2 @@
+N20 #WCS TO MCS [X1]
+N30 M30
