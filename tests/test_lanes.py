@@ -128,6 +128,12 @@ def test_free_axes_continue_from_row_to_row_in_both_lanes():
     np.testing.assert_allclose(turning, np.repeat([expected], 3, axis=0).T, atol=1e-9)
 
 
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.one_of(PLAIN, PLAIN, SYSTEMS), min_size=1, max_size=14))
+def test_lanes_agree_on_coordinate_systems(lines):
+    assert_equal(FLAT, "\n".join(lines) + "\n")
+
+
 @pytest.mark.parametrize("cut", range(0, 75, 3))
 def test_a_program_may_be_cut_anywhere(cut):
     text = "N10 G1 X1.5 Y-2 F100\r\n\r\nN20 X3 A4\nN30 G91 X1\nN40 G90 Z-.5 C10.25\nM30\n"

@@ -236,6 +236,7 @@ CATALOGUE: dict[str, Entry] = {
     # Axis exchange and messages
     "20312": Entry("error", "The axis number is unknown."),
     "20683": Entry("error", "Axes cannot be exchanged while a transformation is active."),
+    "20684": Entry("error", "Axes cannot be exchanged while a coordinate system is active."),
     "20691": Entry("error", "The tool data record is not valid."),
     "20697": Entry("error", "The index of an axis is already taken."),
     "20721": Entry("error", "The values of a message do not fit its format."),

@@ -87,7 +87,7 @@ def test_exchange_that_is_wrong(line, id):
 
 
 def test_axes_of_an_active_system_stay():
-    assert error("#CS ON [1,2,3]\n#PUT AX [Z]\nX1") == [("20010", 2)]
+    assert error("#CS ON [1,2,3]\n#PUT AX [Z]\nX1") == [("20684", 2)]
 
 
 # --- #MACHINE DATA -----------------------------------------------------------------------------

@@ -88,3 +88,10 @@ def test_explain_shows_the_level_and_adds_up():
     assert names["#ECS"] == "program:4"
     total = layers[0].values + np.sum([layer.change for layer in layers], axis=0)
     assert total == pytest.approx(result.acs[-1], abs=1e-9)
+
+
+def test_it_is_the_inverse_of_tool_ori_cs():
+    """The tool is turned onto Z of a system; without it the effector system has the same Z."""
+    text = "#TRAFO [91]\n#CS ON [1.5,0,32,14.5,0,45]\n#TOOL ORI CS\nX0 Y0 Z0\nG91 Z5\n#CS OFF\n"
+    result = ncscope.run(machine("ca_head"), text + "#ECS ON\nZ-5\nM30\n").check()
+    assert result.acs[-1] == pytest.approx(result.acs[-3], abs=1e-9)

@@ -44,26 +44,23 @@ def refuse_exchange(draft: Draft, command: tree.HashCommand) -> None:
             "axes cannot be exchanged while a transformation is active",
             "switch it off first (#TRAFO OFF)",
         )
+    above = draft.state.coordinates.levels[1:]
+    if above:
+        what = f"axes cannot be exchanged while a coordinate system is active: {above[-1].name}"
+        draft.fail("20684", command.span, what, "switch it off first (#CS OFF ALL)")
     if draft.state.suspended is not None:
         what = f"#{command.name} while #MCS is active is not supported yet"
         draft.fail("N2001", command.span, what)
 
 
 def require_no_gap(draft: Draft, command: tree.HashCommand, placed: Mapping[int, Axis]) -> None:
-    """Fails for a channel without one of its first axes, and below an active system."""
+    """Fails for a channel without one of its first axes."""
     if sorted(placed) != list(range(len(placed))):
         draft.fail(
             "N1005",
             command.span,
             "the indices of the axes have a gap; that is not supported",
             f"number them from 0 to {len(placed) - 1}",
-        )
-    if len(placed) < 3 and len(draft.state.coordinates.levels) > 1:
-        draft.fail(
-            "20010",
-            command.span,
-            "an active coordinate system needs three main axes",
-            "switch it off first (#CS OFF)",
         )
 
 
