@@ -1,0 +1,9 @@
+%ACS_FIXTURE (the fixture is turned by 90 degrees)
+N10 G90 G00 X0 Y0 Z0
+N20 #ACS ON [10, 20, 0, 0, 0, 90]
+N30 G00 X5 Y1
+N40 #CS ON [1, 1, 0]
+N50 X5 Y1
+N60 #CS OFF
+N70 #ACS OFF
+N80 M30

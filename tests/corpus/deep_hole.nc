@@ -1,0 +1,12 @@
+%DEEP_HOLE (pecks of 7 mm down to 30 mm)
+N10 G90 G00 X5 Y5 Z2 F80
+N20 P1 = 0
+N30 $WHILE P1 > -30
+N40   P1 = P1 - 7
+N50   $IF P1 < -30
+N60     P1 = -30
+N70   $ENDIF
+N80   G01 ZP1
+N90   G00 Z2
+N100 $ENDWHILE
+N110 M30

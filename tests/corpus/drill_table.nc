@@ -1,0 +1,12 @@
+%DRILL_TABLE (positions from arrays)
+#VAR
+  V.P.XS[5] = [12, 30, 55, 55, 12]
+  V.P.YS[5] = [8, 8, 20, 42, 42]
+#ENDVAR
+N10 G90 G00 Z5 F250
+N20 $FOR P1 = 0, SIZEOF[V.P.XS] - 1, 1
+N30   G00 X=V.P.XS[P1] Y=V.P.YS[P1]
+N40   G01 Z-6.5
+N50   G00 Z5
+N60 $ENDFOR
+N70 M30

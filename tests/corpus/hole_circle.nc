@@ -1,0 +1,11 @@
+%HOLE_CIRCLE (6 holes on a circle of 80 mm)
+N10 G17 G90 G71 F200
+N20 P1 = 6 (holes)
+N30 P2 = 40 (radius)
+N40 $FOR P3 = 0, P1 - 1, 1
+N50   G00 X[P2 * COS[P3 * 360 / P1]] Y[P2 * SIN[P3 * 360 / P1]] Z2
+N60   G01 Z-10
+N70   G00 Z2
+N80 $ENDFOR
+N90 G00 Z100
+N100 M30

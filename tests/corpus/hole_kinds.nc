@@ -1,0 +1,24 @@
+%HOLE_KINDS (1 centre drill, 2 drill, 3 counterbore)
+#VAR
+  V.P.KIND[4] = [1, 2, 3, 9]
+#ENDVAR
+N10 G90 G00 Z1 F100
+N20 $FOR P1 = 0, 3, 1
+N30   G00 X[P1 * 10]
+N40   $SWITCH V.P.KIND[P1]
+N50   $CASE 1
+N60     G01 Z-2
+N70     $BREAK
+N80   $CASE 2
+N90     G01 Z-20
+N100    $BREAK
+N110  $CASE 3
+N120    G01 Z-20
+N130    G01 Z-5
+N140    $BREAK
+N150  $DEFAULT
+N160    #MSG ["hole %d has an unknown kind", P1]
+N170  $ENDSWITCH
+N180  G00 Z1
+N190 $ENDFOR
+N200 M30

@@ -1,0 +1,7 @@
+%LENGTH_CHECK (compares with the table and warns)
+N10 P1 = 99.8 P2 = 100
+N20 $IF ABS[P1 - P2] > 0.1
+N30   #ERROR [ID=7 RC=0 PV1=P1 PM1=2 PV2=P2 PM2=4]
+N40 $ENDIF
+N50 G90 G00 X1
+N60 M30

@@ -1,0 +1,9 @@
+%OLD_CONDITIONS
+N10 G90 G00 X0 P1 = 1
+#IF P1 == 1
+N20 X10
+#ELSE
+N30 this is not even read
+#ENDIF
+N40 Y1
+N50 M30

@@ -1,0 +1,8 @@
+%POLYGON (circle of 12 mm in 24 chords)
+N10 G90 G01 X12 Y0 F900
+N20 P1 = 15
+N30 $WHILE P1 <= 360
+N40   X[12 * COS[P1]] Y[12 * SIN[P1]]
+N50   P1 += 15
+N60 $ENDWHILE
+N70 M30

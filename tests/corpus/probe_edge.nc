@@ -1,0 +1,10 @@
+%PROBE_EDGE (without a probe the run ends at its target)
+N10 G90 G00 X20 Y0 Z-5
+N20 G100 X-10 F100
+N30 P1 = V.A.MESS.X
+N40 G00 X20
+N50 $IF ABS[P1 + 10] > 0.5
+N60   #ERROR [ID=101 RC=2 PV1=P1 PM1=3]
+N70 $ENDIF
+N80 G00 XP1
+N90 M30

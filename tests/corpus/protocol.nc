@@ -1,0 +1,8 @@
+%PROTOCOL
+N10 #FILE NAME [MSG=protocol.txt]
+N20 P1 = 3 P2 = 2.5
+N30 #MSG SAVE EXCLUSIVE ["part %d: width %f", P1, P2 * 4]
+N40 #MSG SAVE EXCLUSIVE CONTINUE ["%s", "end"]
+N50 #MSG ["done"]
+N60 G90 G00 XP2
+N70 M30

@@ -1,0 +1,10 @@
+%ROUGH_TURNING (cuts of 2 mm along Z, radius values)
+N10 G18 G90 G00 X32 Z2
+N20 $FOR P1 = 30, 22, -2
+N30   G00 XP1
+N40   G01 Z-40 F300
+N50   X[P1 + 1]
+N60   G00 Z2
+N70 $ENDFOR
+N80 G00 X60 Z60
+N90 M30

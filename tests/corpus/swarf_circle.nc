@@ -1,0 +1,10 @@
+%SWARF_CIRCLE (tilt of 12 degrees, the tool turns with the path)
+N10 #KIN ID [91]
+N15 G90 G00 A12 C-180
+N20 #TRAFO ON
+N30 G90 G01 F1500
+N40 $FOR P1 = 0, 350, 10
+N50   X[60 * COS[P1]] Y[60 * SIN[P1]] Z-4 A12 C[P1 - 180]
+N60 $ENDFOR
+N70 #TRAFO OFF
+N80 M30

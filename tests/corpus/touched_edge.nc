@@ -1,0 +1,8 @@
+%TOUCHED_EDGE (the edge is 3.2 mm from the spindle axis)
+N10 G90 G00 X50 Y20
+N20 #PSET X-3.2
+N30 G00 X0
+N40 X10
+N50 #PRESET
+N60 X10
+N70 M30
