@@ -125,7 +125,10 @@ def variables_page() -> str:
                 _cells("`P5`, `P[expr]`", "first write or `#VAR`", "parameter; numbers from 1"),
                 _cells("`V.P.NAME`", "first write or `#VAR`", "variable of the program"),
                 _cells("`V.S.NAME`", "first write or `#VAR`", "variable that outlives a program"),
-                _cells("`V.L.NAME`", "`#VAR` only", "variable of one program level"),
+                _cells("`V.L.NAME`", "`#VAR` only", "variable of a program level and those below"),
+                _cells("`V.CYC.NAME`", "`#VAR` only", "as `V.L`, in cycles"),
+                _cells("`V.E.NAME`", "list of external variables, `--set`", "variable of the PLC"),
+                _cells("`@P1`", "call of a cycle", "parameter of a cycle"),
             ),
         ),
         "Arrays need `#VAR`; their indices count from 0.\n"
