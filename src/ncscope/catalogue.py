@@ -274,6 +274,7 @@ CATALOGUE: dict[str, Entry] = {
     "N2025": Entry("error", "A measuring offset that does not exist cannot be included or ended."),
     "N2026": Entry("note", "Manual mode moves nothing: no jog increments are given."),
     "N2027": Entry("error", "G74 needs at least one axis."),
+    "N2070": Entry("note", "#PTP changes the path between end points; it is shown without it."),
     "N2029": Entry("warning", "A tool changes more of the kinematics than its zero position."),
     "N2028": Entry("error", "A correction of the tool length is active already."),
     "N2035": Entry("error", "G04 needs its time."),

@@ -168,7 +168,7 @@ class Coordinates:
         if self.length_step is not None:
             position = self.length_step.model.program(position)
         if active is not None:
-            self._check_vector(active)
+            self._check_vector(active, position)
             if near is not None:
                 near = self.to_mcs(near) - self.tool_vector
             length = self.tool.length
@@ -302,17 +302,17 @@ class Coordinates:
             return self.length_step.model.inverse(position)
         if active is None:
             return position
-        self._check_vector(active)
+        self._check_vector(active, position)
         return active.model.inverse(position, self.tool.length, near, active.pose, self._turn)
 
-    def _check_vector(self, active: ActiveKinematics) -> None:
+    def _check_vector(self, active: ActiveKinematics, position: Array) -> None:
         """An offset added to the components of a direction would turn it: refused."""
         columns = [c for c in active.model.orientation if c < self.axis_count]
         if len(columns) > 2 and (self._offset_total - self.tool_vector)[columns].any():
             raise KinematicsError(
                 "N2001",
                 "an offset of the axes that hold the tool direction (U, V, W) is not supported",
-                (0,),
+                tuple(range(position.size // self.axis_count)),
                 "take their zero offset, G92, #PSET and tool offset away",
             )
 

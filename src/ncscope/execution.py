@@ -15,7 +15,7 @@ from ncscope.channel.draft import Message
 from ncscope.channel.flow import Walker, open_warnings, too_many
 from ncscope.channel.given import GivenRows
 from ncscope.channel.loop_lane import LoopLane, Visited
-from ncscope.channel.start import start_state, with_stack
+from ncscope.channel.start import start_state, switch_on, with_stack
 from ncscope.channel.state import CallRequest, Return, Running, State
 from ncscope.channel.subprograms import Passage, call, leave, nesting_warning, return_in_main
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
@@ -219,6 +219,8 @@ class _Loop:
         self.loops = LoopLane() if options.bulk is not False else None
         long = len(source) >= BULK_FROM
         self.bulk = long if options.bulk is None else options.bulk
+        self.add(found)
+        self.state, found = switch_on(machine, self.state, Span(source, 0, 0))
         self.add(found)
 
     @property

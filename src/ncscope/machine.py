@@ -138,6 +138,8 @@ class ChannelSettings:
     rotation_fixed: bool = False  # P-CHAN-00393
     offsets_per_level: bool = True  # P-CHAN-00397
     direction_turns: bool = False  # P-CHAN-00247 ori_wcs
+    transformation_at_start: bool = False  # P-CHAN-00151 auto_enable_kin_trafo
+    transformation_ends: bool = False  # P-CHAN-00152 auto_disable_kin_trafo
     tool_orientation_axis: int = 0  # P-CHAN-00188 tool_ori_cs.axis
     tool_orientation_mode: int = 0  # P-CHAN-00189 tool_ori_cs.mode
     ecs_axis: str = ""  # P-CHAN-00031 kind_of_2nd_ecs_ax

@@ -322,6 +322,8 @@ def test_point_to_point_has_the_same_end_points():
     text = "V.G.WZ_AKT.L=10\n#TRAFO ON\n{}X0 Y0 Z0 A90\n{}#TRAFO OFF"
     plain = positions(text.format("", ""))
     assert positions(text.format("#PTP ON\n", "#PTP OFF\n")) == plain == [[0, -10, 0, 0, 90]]
+    result = run("#KIN ID [91]\n#TRAFO ON\n#PTP ON\nX1\n#PTP OFF\n#TRAFO OFF")
+    assert [d.id for d in result.diagnostics] == ["N2070"]
 
 
 @pytest.mark.parametrize(
@@ -378,3 +380,22 @@ def test_tool_preselects_its_kinematics():
     assert positions("D1\n#TRAFO ON\nX2", own)[0][0] == round(2 * ROOT, 9)
     assert errors("#TRAFO ON\nD1", own) == [("20990", 3, 1)]
     assert errors("#TRAFO ON\n#MCS ON\nD1", own) == [("20990", 4, 1)]
+
+
+def test_older_names():
+    assert positions("V.G.WZ_AKT.L=10\n#RTCP ON\nX0 Y0 Z0 A90\n#RTCP OFF\nY1")[1][1] == 1
+    assert errors("#TLC ON [5]\n#RTCP ON") == [("20669", 3, 1)]
+
+
+def test_transformation_at_program_start_and_end():
+    """P-CHAN-00151 and P-CHAN-00152, with the default kinematics of P-CHAN-00032."""
+    chosen = ChannelSettings(
+        default_kinematic_id=91, transformation_at_start=True, transformation_ends=True
+    )
+    own = machine(settings=chosen, tools={1: Tool(length=10.0)})
+    result = run("D1\nX0 Y0 Z0 A90", own)
+    assert result.diagnostics == () and result.acs[-1].round(9).tolist() == [0, -10, 0, 0, 90]
+    warned = run("X0", replace(own, settings=replace(chosen, transformation_ends=False)))
+    assert [d.id for d in warned.diagnostics] == ["21247"]
+    missing = replace(own, settings=replace(chosen, default_kinematic_id=92))
+    assert [(d.id, d.line) for d in run("X0", missing).diagnostics] == [("292005", 1)]

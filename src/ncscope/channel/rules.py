@@ -167,7 +167,8 @@ def _end(draft: Draft, words: Words) -> None:
     for number, span in words.mfunctions.items():
         if number in (2, 30):
             draft.ended = True
-            if draft.state.coordinates.kinematics is not None:
+            quiet = draft.machine.settings.transformation_ends
+            if draft.state.kinematics.is_on and not quiet:
                 draft.warn("21247", span, "a transformation is still active at program end")
 
 

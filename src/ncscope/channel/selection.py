@@ -7,9 +7,11 @@ Source: FCT-C27; TF5200 #KIN ID, multi-step transformations; P-TOOL-00009, P-TOO
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from ncscope.channel.draft import Draft
 from ncscope.channel.state import PROGRAM_STEP
+from ncscope.coordinates import ActiveKinematics
 from ncscope.diagnostics import Span
 from ncscope.kinematics.building import UNIVERSAL, build, type_of
 from ncscope.kinematics.chain import Fault, validate
@@ -25,6 +27,19 @@ STRUCTURE = frozenset(
     if name.endswith(".type") or name.startswith("chain") or ("." not in name and "[" not in name)
 )
 """Numbers that say what kind of machine it is; a tool cannot add to them."""
+
+
+def activate(draft: Draft, span: Span, ids: tuple[int, int]) -> None:
+    """The kinematics of these ids is on from now, in the pose of the axes (D-3)."""
+    held = draft.state.kinematics
+    if held.is_on and held.active == ids:
+        return
+    model = kinematics_of(draft, span, ids)
+    pose = model.pose_of(draft.state.position.axes)
+    turns = draft.machine.settings.direction_turns
+    active = ActiveKinematics(model, pose, draft.place, turns)
+    draft.state = replace(draft.state, kinematics=replace(held, active=ids))
+    draft.set_coordinates(replace(draft.state.coordinates, kinematics=active), span)
 
 
 def kinematics_of(draft: Draft, span: Span, ids: tuple[int, int]) -> KinematicStep:

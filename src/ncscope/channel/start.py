@@ -13,6 +13,7 @@ from ncscope.channel.commands.transformation_stack import activate_at_start
 from ncscope.channel.draft import BlockError, Draft
 from ncscope.channel.given import GivenRows
 from ncscope.channel.modulo import modulo_axes
+from ncscope.channel.selection import activate
 from ncscope.channel.state import (
     Kinematics,
     LengthAxis,
@@ -23,7 +24,7 @@ from ncscope.channel.state import (
     SystemMode,
 )
 from ncscope.coordinates import Coordinates
-from ncscope.diagnostics import Diagnostic
+from ncscope.diagnostics import Diagnostic, Span
 from ncscope.machine import Machine, OffsetRecord
 
 EXTERNAL_NAME = re.compile(r"V\.E\.([^\s\[\]=]+)(?:\[(\d{1,6})\])?")
@@ -61,6 +62,20 @@ def start_state(
         record: OffsetRecord = machine.clamp_positions[clamp_index]
         state = offsets.select_clamp(state, clamp_index, record)
     return offsets.select_zero(state, machine.zero_offsets.default_index, "program start")
+
+
+def switch_on(machine: Machine, state: State, span: Span) -> tuple[State, tuple[Diagnostic, ...]]:
+    """The default kinematics switched on at program start where P-CHAN-00151 says so."""
+    ids = state.kinematics.ids
+    wanted = machine.settings.transformation_at_start and ids[0]
+    if not wanted or state.coordinates.kinematics is not None:
+        return state, ()
+    draft = Draft(machine, state, "program start")
+    try:
+        activate(draft, span, ids)
+    except BlockError as error:
+        return state, (*draft.diagnostics, error.diagnostic)
+    return draft.state, tuple(draft.diagnostics)
 
 
 def _kinematics(machine: Machine) -> Kinematics:

@@ -52,6 +52,8 @@ COMMANDS: tuple[Command, ...] = (
     Command("KIN ID", "modelled", "Chooses the kinematics for the next #TRAFO ON."),
     Command("TRAFO ON", "modelled", "Switches the kinematic transformation on."),
     Command("TRAFO OFF", "modelled", "Switches the kinematic transformation off."),
+    Command("RTCP ON", "modelled", "Older name of #TRAFO ON."),
+    Command("RTCP OFF", "modelled", "Older name of #TRAFO OFF."),
     Command("TRAFO", "modelled", "Chooses the kinematics and switches it on or off."),
     Command("FLUSH", "modelled", "Waits until the buffered blocks have run."),
     Command("FLUSH WAIT", "modelled", "Waits until the buffered blocks have run."),
@@ -313,8 +315,6 @@ COMMANDS: tuple[Command, ...] = (
     Command("TRACK CS ON", "refused", "Follows a moving coordinate system."),
     Command("TRACK CS OFF", "refused", "Follows a moving coordinate system."),
     Command("TURN", "refused", "Turns with a turning tool."),
-    Command("RTCP ON", "refused", "Old name of the tool centre transformation."),
-    Command("RTCP OFF", "refused", "Old name of the tool centre transformation."),
 )
 # fmt: on
 

@@ -39,6 +39,8 @@ SETTINGS_OF_KEYS = {
     "meas_error_no_signal": "probe_must_answer",
     "p_param_haltend": "keep_parameters",
     "ori_wcs": "direction_turns",
+    "auto_enable_kin_trafo": "transformation_at_start",
+    "auto_disable_kin_trafo": "transformation_ends",
     "tool_ori_cs.axis": "tool_orientation_axis",
     "tool_ori_cs.mode": "tool_orientation_mode",
     "coordinate_system.rotation_sequence": "rotation_sequence",

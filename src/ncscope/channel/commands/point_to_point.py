@@ -43,6 +43,8 @@ def _switch(draft: Draft, command: tree.HashCommand, on: bool) -> None:
 def on(draft: Draft, command: tree.HashCommand) -> None:
     """#PTP ON"""
     _switch(draft, command, on=True)
+    what = "#PTP changes the path, not the end points; points between them are those without it"
+    draft.warn("N2070", command.span, what)
 
 
 def off(draft: Draft, command: tree.HashCommand) -> None:

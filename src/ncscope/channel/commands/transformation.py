@@ -9,8 +9,7 @@ from dataclasses import dataclass, replace
 
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number
-from ncscope.channel.selection import kinematics_of
-from ncscope.coordinates import ActiveKinematics
+from ncscope.channel.selection import activate
 from ncscope.language import tree
 
 FORM = "write for example #TRAFO [91], #TRAFO [87,51], #TRAFO [ON,OFF] or #TRAFO [OFF]"
@@ -89,16 +88,7 @@ def _switch_on(draft: Draft, command: tree.HashCommand, first: Choice, second: C
     if not first.on:
         what = "the second step of a transformation without the first is not supported"
         draft.fail("N2001", command.span, what, "switch the first step on, too")
-    ids = (first.id, second.id if second.on else 0)
-    held = draft.state.kinematics
-    if held.is_on and held.active == ids:
-        return
-    model = kinematics_of(draft, command.span, ids)
-    pose = model.pose_of(draft.state.position.axes)
-    turns = draft.machine.settings.direction_turns
-    active = ActiveKinematics(model, pose, draft.place, turns)
-    draft.state = replace(draft.state, kinematics=replace(held, active=ids))
-    draft.set_coordinates(replace(draft.state.coordinates, kinematics=active), command.span)
+    activate(draft, command.span, (first.id, second.id if second.on else 0))
 
 
 def _refuse_point_to_point(draft: Draft, command: tree.HashCommand, id: str) -> None:
@@ -154,4 +144,11 @@ def _choice(
     return Choice(id, on=id > 0)
 
 
-COMMANDS = {"KIN ID": select, "TRAFO ON": on, "TRAFO OFF": off, "TRAFO": trafo}
+COMMANDS = {
+    "KIN ID": select,
+    "TRAFO ON": on,
+    "TRAFO OFF": off,
+    "TRAFO": trafo,
+    "RTCP ON": on,
+    "RTCP OFF": off,
+}
