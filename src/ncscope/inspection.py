@@ -107,14 +107,7 @@ class Inspection:
 
     @cached_property
     def pole_distance(self) -> Array:
-        """(rows,) degrees between the tool and its singular direction at the end of each block;
-        NaN without a kinematics that has one."""
-        parts = [np.full(len(s), np.nan) for s in self.result.stretches]
-        for s, out in zip(self.result.stretches, parts, strict=True):
-            pole = _pole(s)
-            if pole is not None:
-                out[:] = pole.distance(s.acs[:, pole.second])
-        return np.concatenate(parts) if parts else np.empty(0)
+        return pole_distance(self.result)
 
     @property
     def nearest_to_pole(self) -> tuple[float, int] | None:
@@ -239,6 +232,16 @@ def inspect(result: Trajectory) -> Inspection:
     for row, s in _stretches(result):
         inspector.see(s, _axes_at(result, row, s))
     return inspector.inspection(result)
+
+
+def pole_distance(result: Trajectory) -> Array:
+    """(rows,) degrees between the tool and its singular direction; NaN without one."""
+    parts = [np.full(len(s), np.nan) for s in result.stretches]
+    for s, out in zip(result.stretches, parts, strict=True):
+        pole = _pole(s)
+        if pole is not None:
+            out[:] = pole.distance(s.acs[:, pole.second])
+    return np.concatenate(parts) if parts else np.empty(0)
 
 
 def place(result: Trajectory, row: int) -> tuple[str, int, int | None]:

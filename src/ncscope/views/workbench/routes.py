@@ -31,7 +31,7 @@ from starlette.routing import Route
 from ncscope.channel.draft import Message
 from ncscope.diagnostics import Diagnostic, Severity
 from ncscope.execution import Options
-from ncscope.inspection import Inspection
+from ncscope.inspection import pole_distance
 from ncscope.kinematics import KinematicsError
 from ncscope.views.records import diagnostic_record
 from ncscope.views.workbench.buffers import Buffer, Change, OutOfStep
@@ -157,8 +157,7 @@ def _result(session: Session, given: dict[str, Any], body: Any) -> Any:
 
 def _path(session: Session, given: dict[str, Any], body: Any) -> Any:
     outcome = _outcome(session, given)
-    pole_distance = Inspection(outcome.drawn, (), (), ()).pole_distance
-    content = pack(outcome.drawn, pole_distance)
+    content = pack(outcome.drawn, pole_distance(outcome.drawn))
     headers = {"cache-control": "no-store", "content-encoding": "identity"}
     return Response(content, 200, headers, "application/octet-stream")
 
