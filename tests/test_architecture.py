@@ -18,7 +18,7 @@ from ncscope.catalogue import CATALOGUE
 
 SOURCE = Path(ncscope.__file__).parent
 LAYERS = (
-    "catalogue",
+    "catalogue seed_commands",
     "diagnostics compilation",
     "frames",
     "kinematics language contour",

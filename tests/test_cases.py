@@ -3,7 +3,7 @@
 `main.nc`      the program, or `program` with the name of one in examples/programs
 `machine`      name of a folder in examples/machines; without it, lists in the case folder; without
                those, axes X Y Z
-`probe.csv`    answers of the probe
+`probe.csv`    answers of the probe; `manual.csv` jog increments
 `options`      lines `skip 1 3`, `clamp 2`, `max_blocks 5`, `strict`, `sample 0.1`
 `known_bug`    why the case fails today; the case must be freed of it when it passes
 `expected.txt` one line per move, then diagnostics and messages:
@@ -11,6 +11,7 @@
     N40 acs X 10 Y 0 Z 0        block N40; L7 instead when line 7 has no block number
     N40 pcs X 10                the same move in another system; only axes named are compared
     diagnostic 20396 @ 5:11     every error and warning of the run, id and line:column
+    list 1019 @ nullp.lis:4:5   every error and warning of the lists, where one line names any
     message message.txt: text   every message in order; `-` when it is for the display
 
 NCSCOPE_REWRITE=1 writes the expected texts anew; the diff is to be read before it is kept.
@@ -42,12 +43,16 @@ class Expected:
 
     moves: list[tuple[str, dict[str, dict[str, float]]]] = field(default_factory=list)
     rest: list[str] = field(default_factory=list)
+    lists: list[str] = field(default_factory=list)
 
 
 def read_expected(text: str) -> Expected:
     expected = Expected()
     for line in text.splitlines():
         if not line.strip() or line.startswith("#"):
+            continue
+        if line.startswith("list "):
+            expected.lists.append(line)
             continue
         match = MOVE.fullmatch(line)
         if match is None:
@@ -82,6 +87,12 @@ def machine_of(folder: Path) -> Machine:
     return Machine()
 
 
+def lists_of(folder: Path) -> list[str]:
+    _, found = ncscope.load_machine(folder)
+    serious = [d for d in found if d.severity != "note"]
+    return [f"list {d.id} @ {d.file}:{d.line}:{d.column}" for d in serious]
+
+
 def options_of(folder: Path) -> ncscope.Options:
     given: dict = {}
     file = folder / "options"
@@ -93,9 +104,10 @@ def options_of(folder: Path) -> ncscope.Options:
             given[key] = float(values[0])
         else:
             given[key] = int(values[0]) if values else True
-    if (folder / "probe.csv").exists():
-        given["probe"], problems = ncscope.load_rows(folder / "probe.csv")
-        assert problems == ()
+    for name in ("probe", "manual"):
+        if (folder / f"{name}.csv").exists():
+            given[name], problems = ncscope.load_rows(folder / f"{name}.csv")
+            assert problems == ()
     return ncscope.Options(**given)
 
 
@@ -122,7 +134,7 @@ def written(result: ncscope.Trajectory, old: Expected) -> str:
             values = zip(result.axes, getattr(result, system)[i].tolist(), strict=True)
             text = " ".join(f"{axis} {_short(v)}" for axis, v in values if v == v)
             lines.append(f"{label} {system} {text}")
-    return "\n".join([*lines, *rest_of(result)]) + "\n"
+    return "\n".join([*lines, *rest_of(result), *old.lists]) + "\n"
 
 
 def _short(value: float) -> str:
@@ -144,6 +156,8 @@ def test_case(folder: Path, request: pytest.FixtureRequest) -> None:
         return
     shown = "\n".join(ncscope.render(d) for d in result.diagnostics)
     assert rest_of(result) == expected.rest, shown
+    if expected.lists:
+        assert lists_of(folder) == expected.lists
     assert labels_of(result) == [label for label, _ in expected.moves], shown
     for i, (label, systems) in enumerate(expected.moves):
         for system, values in systems.items():

@@ -19,6 +19,7 @@ import pytest
 
 from ncscope import docs
 from ncscope.catalogue import CATALOGUE
+from ncscope.seed_commands import SEED_COMMANDS, SeedCommand
 
 ROOT = Path(__file__).parents[1]
 README = ROOT / "README.md"
@@ -99,3 +100,18 @@ def test_every_g_function_is_on_the_page() -> None:
     page = docs.commands_page()
     missing = [n for n in docs.GFUNCTIONS if f"G{n:02d}" not in page]
     assert missing == []
+
+
+@pytest.mark.parametrize("row", SEED_COMMANDS, ids=lambda r: f"{r.form} {r.case}")
+def test_the_case_of_a_seed_command_shows_it(row: SeedCommand) -> None:
+    """The case exists, and its program or one of its lists holds what the manual writes."""
+    folder = ROOT / "tests" / "cases" / row.case
+    files = [folder / "main.nc", *folder.glob("*.lis")]
+    for name, kind in (("program", "programs"), ("machine", "machines")):
+        if (folder / name).exists():
+            place = ROOT / "examples" / kind / (folder / name).read_text().strip()
+            files += [place] if place.is_file() else place.glob("*.lis")
+    text = " ".join(f.read_text(encoding="latin-1") for f in files if f.exists())
+    squeezed = re.sub(r"\s+", " ", text)
+    assert row.form in squeezed
+    assert docs.seed_status(row) == "modelled"

@@ -200,6 +200,9 @@ CATALOGUE: dict[str, Entry] = {
     "21883": Entry("error", "A value overflows."),
     # Coordinate systems and offsets
     "20038": Entry("error", "G201 needs at least one axis."),
+    "20582": Entry("error", "The index of G159 is not a whole number."),
+    "20583": Entry("error", "The index of G160 is not a whole number."),
+    "20584": Entry("error", "The index of G160 is out of range."),
     "20607": Entry("error", "#PSET and #PRESET cannot stand in a block with a motion function."),
     "20612": Entry("error", "#PSET is not allowed while a mirror is active."),
     "20669": Entry("error", "#TLC and a transformation exclude each other."),

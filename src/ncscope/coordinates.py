@@ -84,6 +84,7 @@ class Coordinates:
     modulo: axes that are shown inside a range, in the program and at the machine.
     program_step: what maps programmed values before everything else (#TRAFO PCS).
     length_step: what carries axis values over to a tool of another length (#TLC).
+    manual: what was jogged in manual mode (G201); it lies on the axes, behind everything else.
     Source: TF5200 coordinate systems and offsets; FCT-C2; TF5200 #CS; FCT-C27.
     """
 
@@ -95,6 +96,7 @@ class Coordinates:
     program_step: ActiveKinematics | None = None
     length_step: ActiveLengthCorrection | None = None
     modulo: ModuloAxes = NO_MODULO
+    manual: Offset | None = None
 
     def __post_init__(self) -> None:
         """Raises ValueError for a coordinate system over fewer than three main axes."""
@@ -156,14 +158,14 @@ class Coordinates:
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Axis positions (..., n) for a tool tip (..., n) in the machine system."""
         position = np.asarray(mcs, dtype=float) - self.tool_vector
-        return self.modulo.wrap(self._solved(position, near))
+        return self.modulo.wrap(self._solved(position, near) + self._jogged)
 
     def mcs_from_axes(self, axes: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Tool tip (..., n) in the machine system for axis positions (..., n).
 
         near: (n,) programmed values, as for `to_program`.
         """
-        position = np.asarray(axes, dtype=float)
+        position = np.asarray(axes, dtype=float) - self._jogged
         active = self.kinematics
         if self.length_step is not None:
             position = self.length_step.model.program(position)
@@ -179,7 +181,8 @@ class Coordinates:
         """Unit vector (..., 3) tip -> flange in the MCS; None without a kinematics."""
         if self.kinematics is None:
             return None
-        return self.kinematics.model.forward(axes, tool_length=self.tool.length)[1]
+        position = np.asarray(axes, dtype=float) - self._jogged
+        return self.kinematics.model.forward(position, tool_length=self.tool.length)[1]
 
     # --- level-absolute values -----------------------------------------------------------------
 
@@ -209,7 +212,8 @@ class Coordinates:
         if "tool" in kinds:
             length = tool.length if self.kinematics is not None else 0.0
             tool = replace(tool, axis_offsets=(), length=length)
-        return replace(self, levels=levels, tool=tool)
+        manual = None if "manual" in kinds else self.manual
+        return replace(self, levels=levels, tool=tool, manual=manual)
 
     def at_level(self, k: int) -> Coordinates:
         """The chain as it ends at level `k`: program values are those of that level, not mapped,
@@ -223,6 +227,11 @@ class Coordinates:
     @property
     def top(self) -> Level:
         return self.levels[-1]
+
+    @cached_property
+    def _jogged(self) -> Array:
+        """What manual mode superimposes, by channel axis."""
+        return np.zeros(self.axis_count) if self.manual is None else np.array(self.manual.values)
 
     @cached_property
     def top_total(self) -> Array:
@@ -346,6 +355,8 @@ class Coordinates:
             yield "#TLC", self.length_step.origin, lambda x: self._solved(x, near)
         if self.kinematics is not None:
             yield "kinematics", self.kinematics.origin, lambda x: self._solved(x, near)
+        if self.manual is not None:
+            yield self.manual.name, self.manual.origin, _adder(self._jogged)
         if self.modulo.ranges:
             yield "modulo", None, self.modulo.wrap
 

@@ -16,7 +16,9 @@ from ncscope.channel.gfunctions import GFUNCTIONS
 from ncscope.channel.variables import VARIABLES, Row
 from ncscope.language.commands import COMMANDS
 from ncscope.language.vocabulary import WORDS
+from ncscope.lists import table
 from ncscope.lists.reference_page import parameters_page
+from ncscope.seed_commands import SEED_COMMANDS, SeedCommand
 
 G_EFFECTS = {
     "motion": "Motion",
@@ -47,6 +49,7 @@ def pages() -> dict[str, str]:
         "commands.md": commands_page(),
         "diagnostics.md": diagnostics_page(),
         "parameters.md": parameters_page(),
+        "seed_commands.md": seed_commands_page(),
         "variables.md": variables_page(),
     }
 
@@ -87,6 +90,39 @@ def commands_page() -> str:
             parts.append(f"### {title}")
             parts.append(_table("word|purpose", words))
     return _page(parts)
+
+
+def seed_commands_page() -> str:
+    """The commands of the manuals about offsets with status and test case."""
+    lines = (
+        _cells(row.place, f"`{row.form}`", seed_status(row), f"`{row.case}`")
+        for row in SEED_COMMANDS
+    )
+    parts = [
+        "# Commands of the manuals about offsets",
+        "Every command, variable and list parameter of the manuals FCT-C2 (coordinate systems and "
+        "offsets), ZERO (zero offsets) and of the definition of #CS.\n"
+        "The status comes from the tables that the program uses; the last column is the folder in "
+        "`tests/cases` that shows it.",
+        _table("manual|form|status|test case", lines),
+    ]
+    return _page(parts)
+
+
+def seed_status(row: SeedCommand) -> str:
+    """`modelled`, or the title of the table of commands where it stands. Raises KeyError."""
+    name = row.name
+    if name.startswith("P-"):
+        statuses = [p.status for p in table.rows() if p.id == name]
+        return "modelled" if statuses and statuses[0] == "effective" else "without effect"
+    if name.startswith("#"):
+        return COMMAND_KINDS[{f"#{c.name}": c.kind for c in COMMANDS}[name]].lower()
+    if name.startswith("V."):
+        return "modelled" if name in VARIABLES else "unknown"
+    if name[1:].isdigit():
+        effect = GFUNCTIONS[int(name[1:])].effect
+        return G_EFFECTS[effect].lower() if effect in ("quiet", "later") else "modelled"
+    return {"D": "modelled"}[name]
 
 
 def diagnostics_page() -> str:

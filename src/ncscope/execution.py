@@ -199,7 +199,7 @@ class _Loop:
     ) -> None:
         self.machine, self.source, self.options = machine, source, options
         self.progress, self.sink, self.reached = progress, sink, 0
-        state = start_state(machine, options.clamp, options.probe, options.external)
+        state = start_state(machine, options.clamp, options.probe, options.external, options.manual)
         state, found = with_stack(machine, state)
         self.state = replace(state, running=Running(file=source.name))
         self.stretches: list[Stretch] = []
@@ -335,7 +335,7 @@ class _Loop:
         if not self.over:
             self.log.add(_no_end(self.source), self.options.strict)
         if not self.log.stop:
-            self.add(_unused(self.state.probe))
+            self.add([*_unused(self.state.probe), *_unused(self.state.manual)])
             self.add(self.transitions.finish())
         self.recorder.finish()
         self.add(self.recorder.complaints())

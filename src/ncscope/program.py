@@ -30,7 +30,8 @@ class Options:
     load: the text of a subprogram file that the program calls, None where there is none; without
     it no file is found. external: values of the PLC's variables by name, `V.E.NAME`.
     probe: the answers of the probe (`load_rows`), a row for each measuring run; without them it
-    triggers at the target.
+    triggers at the target. manual: jog increments, a row for each G200 and G201; without them
+    nobody jogs.
     """
 
     clamp: int | None = None
@@ -42,6 +43,7 @@ class Options:
     external: Mapping[str, float | str] = field(default_factory=dict)
     sample: float | None = None
     probe: GivenRows | None = None
+    manual: GivenRows | None = None
 
     def __post_init__(self) -> None:
         """Raises ValueError for a tolerance below the resolution of the control."""

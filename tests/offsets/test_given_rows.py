@@ -114,3 +114,22 @@ def test_bad_file_in_jsonl(folder):
     first, *_, last = [json.loads(line) for line in done.stdout.splitlines()]
     assert (first["id"], first["file"], first["line"]) == ("N4010", "bad.csv", 2)
     assert last == {"kind": "end", "status": "error", "moves": 0}
+
+
+def test_jog_increments_of_every_command(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("jog.nc").write_text("N10 X100\nN20 G201 X1\nN30 G202\nN40 X200\nM30\n")
+    Path("jog.csv").write_text("X\n3\n")
+    given = ("--manual", "jog.csv")
+    moves = [json.loads(t) for t in call("run", "jog.nc", *given, "--format", "jsonl").stdout
+             .splitlines()]  # fmt: skip
+    assert [m["acs"]["X"] for m in moves[:-1]] == [100, 103, 203]
+    assert [m["mcs"]["X"] for m in moves[:-1]] == [100, 100, 200]
+    layers = json.loads(call("explain", "jog.nc:4", *given, "--format", "json").stdout)["layers"]
+    assert [(layer["name"], layer["origin"]) for layer in layers] == [
+        ("programmed", None), ("manual", "jog.csv:2"), ("axes", None)
+    ]  # fmt: skip
+    shown = call("where", "--axes", "X=203", "--at", "jog.nc:4", *given, "--format", "json")
+    assert json.loads(shown.stdout)["pcs"]["X"] == 200.0
+    left = call("check", "jog.nc", "--manual", "jog.csv").stderr
+    assert "N2026" not in left

@@ -29,7 +29,6 @@ def test_homing_goes_to_the_reference_and_ends_the_preset():
     assert rows[1] == pytest.approx([500, 2, 0])
     assert rows[2] == pytest.approx([13, 6, 0])
     assert ids_of("G74") == ["N2027"]
-    assert ids_of("#CS ON [1,2,3]\nG74 X1") == ["N2001"]
 
 
 def test_manual_mode_moves_nothing():

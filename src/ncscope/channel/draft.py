@@ -123,6 +123,10 @@ class Draft:
 
     def set_coordinates(self, coordinates: Coordinates, span: Span) -> None:
         """Other coordinates with the axes where they are."""
+        transformed = coordinates.kinematics is not None or coordinates.length_step is not None
+        if transformed and coordinates.manual is not None:
+            what = "a transformation is not supported while manual offsets are superimposed"
+            self.fail("N2001", span, what, "write #CHANNEL INIT [CMDPOS] before it")
         try:
             self.state = self.state.with_coordinates(coordinates)
         except KinematicsError as error:
@@ -175,3 +179,12 @@ class Draft:
                 way,
             )
         )
+
+    def rapid_to(
+        self, program: np.ndarray, span: Span, coordinates: Coordinates | None = None
+    ) -> None:
+        """`move_to` as a rapid motion, whatever motion is modal."""
+        motion = self.modes.motion
+        self.modal(motion="G00")
+        self.move_to(program, span, coordinates)
+        self.modal(motion=motion)

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ncscope.channel.state import SelectedTool, State
-from ncscope.coordinates import ActiveTool, Offset
+from ncscope.coordinates import ActiveTool, Coordinates, Level, Offset
 from ncscope.machine import OffsetRecord, Tool
 
 MAIN_AXES = 3
@@ -58,12 +58,33 @@ def set_offsets(
 def clear_preset(state: State, axes: frozenset[int]) -> State:
     """#PRESET: the position preset of these axes is gone in the innermost level."""
     held = held_offset(state, "pset")
-    if held is None:
-        return state
+    return state if held is None else _with_offset(state, "pset", _without(held, axes))
+
+
+def without_presets(state: State, axes: frozenset[int]) -> State:
+    """G74: the position preset of these axes is gone in every level, also in those that wait."""
+    if state.suspended is not None:
+        waiting = _cleared(state.suspended.coordinates, axes)
+        state = replace(state, suspended=replace(state.suspended, coordinates=waiting))
+    cleared = _cleared(state.coordinates, axes)
+    return state if cleared is state.coordinates else state.with_coordinates(cleared)
+
+
+def _cleared(coordinates: Coordinates, axes: frozenset[int]) -> Coordinates:
+    levels = tuple(_without_preset(level, axes) for level in coordinates.levels)
+    unchanged = all(a is b for a, b in zip(levels, coordinates.levels, strict=True))
+    return coordinates if unchanged else replace(coordinates, levels=levels)
+
+
+def _without_preset(level: Level, axes: frozenset[int]) -> Level:
+    held = level.offset("pset")
+    return level if held is None else level.with_offset("pset", _without(held, axes))
+
+
+def _without(held: Offset, axes: frozenset[int]) -> Offset | None:
     values = tuple(0.0 if i in axes else v for i, v in enumerate(held.values))
     origins = tuple(None if i in axes else o for i, o in enumerate(held.origins))
-    offset = replace(held, values=values, origins=origins) if any(values) else None
-    return _with_offset(state, "pset", offset)
+    return replace(held, values=values, origins=origins) if any(values) else None
 
 
 def preset(state: State, values: Mapping[int, float], place: str) -> State:

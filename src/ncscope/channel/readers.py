@@ -1,4 +1,4 @@
-"""What the variables of measuring, conversion and selected systems read (TF5200)."""
+"""What the variables of measuring, manual mode, conversion and selected systems read (TF5200)."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import numpy as np
 
 from ncscope.channel.draft import Draft
 from ncscope.channel.rows import Reference
+
+DEFAULT_LIMIT = 10_000.0
+"""Mm or degrees; the default of both software limits (P-AXIS-00177, P-AXIS-00178)."""
 
 
 def measured(field: str) -> Callable[[Draft, Reference], float]:
@@ -46,5 +49,26 @@ def selected_origin(axis: int) -> Callable[[Draft, Reference], float]:
         below[:3] = chain.top.frame.shift
         origin = chain.at_level(place - 1).to_mcs(below)
         return float(origin[axis]) / draft.modes.length_factor
+
+    return read
+
+
+def manual_offset(draft: Draft, ref: Reference) -> float:
+    """What #GET MANUAL OFFSETS fetched last."""
+    name = draft.state.axis_names[ref.axis]
+    return draft.shown(ref.axis, draft.state.manual_offsets.get(name, 0.0))
+
+
+def reference(draft: Draft, ref: Reference) -> float:
+    """Where the axis stands after homing."""
+    return draft.shown(ref.axis, draft.state.axes[ref.axis].reference)
+
+
+def limit(side: int) -> Callable[[Draft, Reference], float]:
+    """A software limit, 0 the lower and 1 the upper one; 10 m where none is monitored."""
+
+    def read(draft: Draft, ref: Reference) -> float:
+        limits = draft.state.axes[ref.axis].limits or (-DEFAULT_LIMIT, DEFAULT_LIMIT)
+        return draft.shown(ref.axis, limits[side])
 
     return read

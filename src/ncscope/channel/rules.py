@@ -75,13 +75,14 @@ def _group_index(draft: Draft, words: Words, word: tree.GWord) -> int:
         draft.fail(
             "20147", word.span, f"G{number} needs the index of a group", f"write G{number}=2"
         )
-    index = round(words.values[number])
+    value = words.values[number]
+    if abs(value - round(value)) > 1e-9:
+        what = f"G{number} needs a whole number, not {value:g}"
+        draft.fail("20582" if number == 159 else "20583", word.span, what)
+    index = round(value)
     if not 0 <= index < ZERO_GROUPS:
-        draft.fail(
-            "20149",
-            word.span,
-            f"zero offset group {index} does not exist; indices are 0 to {ZERO_GROUPS - 1}",
-        )
+        what = f"zero offset group {index} does not exist; indices are 0 to {ZERO_GROUPS - 1}"
+        draft.fail("20149" if number == 159 else "20584", word.span, what)
     return index
 
 

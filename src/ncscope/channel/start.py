@@ -35,10 +35,12 @@ def start_state(
     clamp_index: int | None = None,
     probe: GivenRows | None = None,
     external: Mapping[str, float | str] | None = None,
+    manual: GivenRows | None = None,
 ) -> State:
     """The state at program start: all axes at 0, default zero offset, clamp offset if chosen.
 
-    probe: the answers of the probe, a row for each measuring run.
+    probe: the answers of the probe, a row for each measuring run. manual: jog increments, a row
+    for each G200 and G201.
     external: values of V.E variables, as `V.E.NAME` or `V.E.NAME[2]`.
     Raises KeyError when the machine has no clamp position with this index, or no V.E element.
     """
@@ -55,6 +57,7 @@ def start_state(
         probe=probe,
         stacks=machine.stacks,
         system_mode=SystemMode(per_level=machine.settings.offsets_per_level),
+        manual=manual,
         length_axis=LengthAxis(2, 1.0) if machine.settings.tool_length_stays else None,
         variables=_external(machine, external or {}),
     )

@@ -266,8 +266,9 @@ class State:
     parked: positions of axes that left the channel, by logical number. turn, scale_factors: the
     values programmed last for #ROTATION and #SCALE, by channel index. suspended: what waits while
     #MCS is on. converted: what #TRANSFORM and its relatives computed, by variable and axis name, mm
-    or degrees. measured: what G100 measured, by axis name. probe: the answers that are
-    given.
+    or degrees. measured: what G100 measured, by axis name. probe: the answers that are given.
+    manual: the jog increments that are given. manual_offsets: what #GET MANUAL OFFSETS fetched, by
+    axis name, mm and degrees.
     circle: the corrected I, J, K and R of the last arc, mm. message_file: where #MSG SAVE writes.
     called_files: what #FILE NAME set for M6 and G80 ... running: the program level.
     """
@@ -299,6 +300,8 @@ class State:
     circle: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     measuring: Measuring = field(default_factory=Measuring)
     probe: GivenRows | None = None
+    manual: GivenRows | None = None
+    manual_offsets: Mapping[str, float] = field(default_factory=dict)
     message_file: str = "message.txt"
     called_files: Mapping[str, str] = field(default_factory=dict)
     running: Running = field(default_factory=Running)

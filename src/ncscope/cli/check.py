@@ -12,6 +12,7 @@ from ncscope.cli.options import (
     FoldersOption,
     KinematicsOption,
     MachineOption,
+    ManualOption,
     ProbeOption,
     SetOption,
     read_settings,
@@ -27,6 +28,7 @@ def check_command(
     machine: MachineOption = None,
     kinematics: KinematicsOption = None,
     probe: ProbeOption = None,
+    manual: ManualOption = None,
     values: SetOption = None,
     folders: FoldersOption = None,
     strict: Annotated[bool, typer.Option("--strict", help="A warning counts as an error.")] = False,
@@ -44,7 +46,9 @@ def check_command(
             from ncscope.execution import Options
 
             options = Options(max_blocks=1_000_000, external=read_settings(values))
-            result, more, _ = run_program(path, machine, options, probe, folders or (), kinematics)
+            result, more, _ = run_program(
+                path, machine, options, probe, folders or (), kinematics, manual
+            )
             found.extend([*(d for d in more if d.severity != "note"), *result.diagnostics])
     show_diagnostics(found)
     counts = {s: sum(d.severity == s for d in found) for s in ("error", "warning", "note")}

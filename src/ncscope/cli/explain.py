@@ -13,6 +13,7 @@ from ncscope.cli.options import (
     FoldersOption,
     KinematicsOption,
     MachineOption,
+    ManualOption,
     ProbeOption,
     SetOption,
     SkipOption,
@@ -40,6 +41,7 @@ def explain_command(
     clamp: ClampOption = None,
     skip: SkipOption = "",
     probe: ProbeOption = None,
+    manual: ManualOption = None,
     values: SetOption = None,
     folders: FoldersOption = None,
 ) -> None:
@@ -51,7 +53,9 @@ def explain_command(
 
     path, line, number = read_place(place)
     options = Options(clamp, read_levels(skip), external=read_settings(values))
-    result, found, source = run_program(path, machine, options, probe, folders or (), kinematics)
+    result, found, source = run_program(
+        path, machine, options, probe, folders or (), kinematics, manual
+    )
     try:
         if number is not None:
             line = result.line_of_block(number)

@@ -50,8 +50,9 @@ def read_inputs(
     probe: Path | None = None,
     folders: Sequence[Path] = (),
     kinematics: Path | None = None,
+    manual: Path | None = None,
 ) -> Inputs:
-    """Machine, program and probe answers; ends the process when a file cannot be read."""
+    """Machine, program and answers; ends the process when a file cannot be read."""
     from ncscope.channel.start import start_state
     from ncscope.loading import load_program, subprogram_loader
 
@@ -68,7 +69,8 @@ def read_inputs(
     except OSError as error:
         fail(f"cannot read {path}: {error.strerror}")
     load = subprogram_loader([path.parent, *folders], machine.settings.search_paths)
-    options = replace(options, probe=_read_rows(probe, found), load=load)
+    rows = _read_rows(probe, found), _read_rows(manual, found)
+    options = replace(options, probe=rows[0], manual=rows[1], load=load)
     return Inputs(machine, found, program, options)
 
 
@@ -79,9 +81,10 @@ def run_program(
     probe: Path | None = None,
     folders: Sequence[Path] = (),
     kinematics: Path | None = None,
+    manual: Path | None = None,
 ) -> tuple[Trajectory, list[Diagnostic], Program]:
     """The run of a program, what its files have wrong, and the program."""
-    inputs = read_inputs(path, machine_path, options, probe, folders, kinematics)
+    inputs = read_inputs(path, machine_path, options, probe, folders, kinematics, manual)
     return inputs.run(), inputs.found, inputs.program
 
 

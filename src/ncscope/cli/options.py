@@ -30,6 +30,11 @@ ProbeOption = Annotated[
     typer.Option("--probe", help="CSV: a row for each measuring run, a column for each axis."),
 ]
 
+ManualOption = Annotated[
+    Path | None,
+    typer.Option("--manual", help="CSV of jog increments: a row for each G200 and G201."),
+]
+
 SetOption = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="V.E.NAME=VALUE", help="Value of a variable of the PLC."),

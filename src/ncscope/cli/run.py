@@ -15,6 +15,7 @@ from ncscope.cli.options import (
     FoldersOption,
     KinematicsOption,
     MachineOption,
+    ManualOption,
     ProbeOption,
     SetOption,
     SkipOption,
@@ -42,6 +43,7 @@ def run_command(
     clamp: ClampOption = None,
     skip: SkipOption = "",
     probe: ProbeOption = None,
+    manual: ManualOption = None,
     values: SetOption = None,
     folders: FoldersOption = None,
     max_blocks: Annotated[
@@ -72,7 +74,7 @@ def run_command(
     options = Options(
         clamp, read_levels(skip), max_blocks, strict, external=external, sample=sample
     )
-    inputs = read_inputs(program, machine, options, probe, folders or (), kinematics)
+    inputs = read_inputs(program, machine, options, probe, folders or (), kinematics, manual)
     found = [d for d in inputs.found if d.severity != "note"]
 
     def judge(result: Trajectory) -> tuple[Trajectory, bool]:

@@ -14,6 +14,7 @@ from ncscope.cli.options import (
     ClampOption,
     KinematicsOption,
     MachineOption,
+    ManualOption,
     ProbeOption,
     SkipOption,
     read_levels,
@@ -45,6 +46,7 @@ def where_command(
     clamp: ClampOption = None,
     skip: SkipOption = "",
     probe: ProbeOption = None,
+    manual: ManualOption = None,
 ) -> None:
     """Where axis positions are in PCS, WCS and MCS under the state of a block."""
     from ncscope.execution import Options
@@ -54,7 +56,9 @@ def where_command(
     positions = read_positions([*axes, *(more or ())])
     path, line, number = read_place(at)
     options = Options(clamp, read_levels(skip))
-    result, found, source = run_program(path, machine, options, probe, kinematics=kinematics)
+    result, found, source = run_program(
+        path, machine, options, probe, kinematics=kinematics, manual=manual
+    )
     try:
         if number is not None:
             line = result.line_of_block(number)

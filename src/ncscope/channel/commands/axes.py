@@ -133,6 +133,7 @@ def with_axes(state: State, axes: tuple[Axis, ...]) -> State:
         levels=levels,
         contour=contour,
         modulo=modulo_axes(axes),
+        manual=_moved(state.coordinates.manual, sources),
     )
     state = replace(
         state,
@@ -150,18 +151,23 @@ def _moved_factors(factors: Mapping[int, float], sources: list[int | None]) -> d
 
 
 def _moved_level(level: Level, sources: list[int | None]) -> Level:
-    def moved(offset: Offset) -> Offset:
-        values = tuple(0.0 if s is None else offset.values[s] for s in sources)
-        origins = tuple(None if s is None else offset.origins[s] for s in sources)
-        return replace(offset, values=values, origins=origins)
+    offsets = ((kind, _moved(offset, sources)) for kind, offset in level.offsets)
+    return replace(level, offsets=tuple((kind, o) for kind, o in offsets if o is not None))
 
-    return replace(level, offsets=tuple((k, moved(o)) for k, o in level.offsets))
+
+def _moved(offset: Offset | None, sources: list[int | None]) -> Offset | None:
+    if offset is None:
+        return None
+    values = tuple(0.0 if s is None else offset.values[s] for s in sources)
+    origins = tuple(None if s is None else offset.origins[s] for s in sources)
+    return replace(offset, values=values, origins=origins)
 
 
 def channel_init(draft: Draft, command: tree.HashCommand) -> None:
     """#CHANNEL INIT [CMDPOS] | [ACTPOS {AX=X}]: the channel takes the present positions.
 
-    Axes are ideal here, so command and actual positions are the same and nothing changes.
+    Axes are ideal here, so command and actual positions are the same. What manual mode laid on
+    the axes is part of their position from now on.
     """
     items = [item for group in command.groups for item in group.items]
     if not items:
@@ -177,9 +183,7 @@ def channel_init(draft: Draft, command: tree.HashCommand) -> None:
             draft.axis_index(item.value.text, item.span, "20797")
         elif item.key != "AXNR":
             draft.fail("N1005", item.span, "only AX=.. and AXNR=.. can stand here")
-    state = draft.state
-    program = state.coordinates.to_program(state.position.axes, near=state.position.program)
-    draft.state = replace(state, position=Position(state.position.axes, program))
+    draft.set_coordinates(replace(draft.state.coordinates, manual=None), command.span)
 
 
 def flush(draft: Draft, command: tree.HashCommand) -> None:

@@ -36,7 +36,12 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     held = state.coordinates
     suspended = Suspended(held, state.zero_index, ex_tool)
     draft.state = replace(state, suspended=suspended, zero_index=0)
-    bare = Coordinates(held.axis_count, contour=held.contour.without_turn(), modulo=held.modulo)
+    bare = Coordinates(
+        held.axis_count,
+        contour=held.contour.without_turn(),
+        modulo=held.modulo,
+        manual=held.manual,
+    )
     draft.set_coordinates(bare, command.span)
 
 
@@ -50,7 +55,9 @@ def off(draft: Draft, command: tree.HashCommand) -> None:
     contour = replace(state.coordinates.contour, turn=held.coordinates.contour.turn)
     tool = offsets.active_tool(state)
     draft.state = replace(state, suspended=None, zero_index=held.zero_index)
-    restored = replace(held.coordinates, contour=contour, tool=tool)
+    restored = replace(
+        held.coordinates, contour=contour, tool=tool, manual=state.coordinates.manual
+    )
     draft.set_coordinates(restored, command.span)
     renew_kinematics(draft, command.span)
 

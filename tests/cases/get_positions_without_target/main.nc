@@ -1,0 +1,2 @@
+N10 #GET CMDPOS [X]
+N20 M30
