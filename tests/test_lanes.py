@@ -57,6 +57,7 @@ OTHER = st.sampled_from(
         "#ROTATION ON [ANGLE 30 CENTER1=5]", "#ROTATION OFF", "G68 R20", "G69", "G18", "G17", "G21",
         "G20", "G351 Y-1", "#SCALE ON X2 Y3", "#SCALE OFF", "#MCS ON", "#MCS OFF", "G100 X5",
         "#SUPPRESS OFFSETS X5", "#ACS ON [1,2,3,10]", "#ACS OFF", "G101 X1", "G74 X1", "G201 X1",
+        "#TLAX [X+]", "#MEAS [TYPE=3]", "G100 G106 X5 F500", "G102", "#CHANNEL INIT [CMDPOS]",
         "#CS ADD [A] [1,2,3,0,10,0]", "#CS ADD [B] [0,0,5,0,0,40]", "#CS SELECT [A]", "#CS DEL",
         "#CS SELECT [B]", "#CS SELECT [MCS]", "#CS SET [A] [4,5,6]", "#CS TRACK [A] [1,2,3]",
         "#ECS ON", "#ECS OFF", "#BCS ON [K] [0,1,0,0,0,5]", "#BCS OFF",

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
-from ncscope.channel.state import State
 from ncscope.coordinates import Coordinates, Offset
 from ncscope.diagnostics import Span
 from ncscope.frames import Array
@@ -38,11 +37,24 @@ def jog(draft: Draft, words: Words) -> None:
     increments, place = _increments(draft, number, axes, span)
     if any(increments.values()):
         _check_chain(draft, number, span)
-        _superimpose(draft, increments, place, span)
+    if number == 201 and any(increments.values()):
+        coordinates = replace(draft.state.coordinates, manual=_added(draft, increments, place))
+        draft.state = draft.state.with_coordinates(coordinates, keep="level")
+        draft.rapid_to(draft.state.position.program, span)
     if number == 200:
-        _check_limits(draft, increments, span)
-        _fetch(draft)
-        draft.state = reinitialised(draft.state)
+        _take_over(draft, increments, place, span)
+
+
+def _take_over(draft: Draft, increments: Mapping[int, float], place: str, span: Span) -> None:
+    """G200: the axes stand where they were jogged to, and the channel takes these positions."""
+    _fetch(draft, _added(draft, increments, place))
+    draft.set_coordinates(replace(draft.state.coordinates, manual=None), span)
+    if any(increments.values()):
+        position = draft.state.position.axes.copy()
+        for axis, increment in increments.items():
+            position[axis] += increment
+        draft.rapid_to(draft.state.coordinates.to_program(position), span)
+    _check_limits(draft, increments, span)
 
 
 def _increments(
@@ -85,29 +97,22 @@ def _check_limits(draft: Draft, increments: Mapping[int, float], span: Span) -> 
             draft.fail("N2043", span, what, f"its software limits are {low:g} and {high:g}")
 
 
-def _superimpose(draft: Draft, increments: Mapping[int, float], place: str, span: Span) -> None:
-    state, n = draft.state, len(draft.state.axes)
-    held = state.coordinates.manual or Offset("manual", (0.0,) * n, (None,) * n, place)
+def _added(draft: Draft, increments: Mapping[int, float], place: str) -> Offset:
+    """What lies on the axes with these increments."""
+    n = len(draft.state.axes)
+    held = draft.state.coordinates.manual or Offset("manual", (0.0,) * n, (None,) * n, place)
     values, origins = list(held.values), list(held.origins)
     for axis, increment in increments.items():
         values[axis] += increment
         origins[axis] = place
-    manual = replace(held, values=tuple(values), origins=tuple(origins))
-    coordinates = replace(state.coordinates, manual=manual)
-    draft.state = state.with_coordinates(coordinates, keep="level")
-    draft.rapid_to(draft.state.position.program, span)
+    return replace(held, values=tuple(values), origins=tuple(origins))
 
 
-def _fetch(draft: Draft) -> None:
-    held = draft.state.coordinates.manual
-    values = held.values if held is not None else (0.0,) * len(draft.state.axes)
+def _fetch(draft: Draft, manual: Offset | None) -> None:
+    """V.A.MANUAL_OFFSETS reads this from now on."""
+    values = manual.values if manual is not None else (0.0,) * len(draft.state.axes)
     fetched = dict(zip(draft.state.axis_names, values, strict=True))
     draft.state = replace(draft.state, manual_offsets=fetched)
-
-
-def reinitialised(state: State) -> State:
-    """The channel takes the positions of the axes; nothing is superimposed on them any more."""
-    return state.with_coordinates(replace(state.coordinates, manual=None))
 
 
 def home(draft: Draft, words: Words) -> None:
@@ -138,13 +143,13 @@ def _move_axes(draft: Draft, position: Array, span: Span) -> None:
         return
     pose = chain.kinematics.model.pose_of(position)
     active = replace(chain.kinematics, pose=pose)
-    draft.rapid_to(position, span, Coordinates(chain.axis_count))
+    draft.rapid_to(position, span, Coordinates(chain.axis_count, modulo=chain.modulo))
     draft.set_coordinates(replace(chain, kinematics=active), span)
 
 
 def get_offsets(draft: Draft, command: object) -> None:
     """#GET MANUAL OFFSETS: V.A.MANUAL_OFFSETS; the offsets stay, and no position changes."""
-    _fetch(draft)
+    _fetch(draft, draft.state.coordinates.manual)
 
 
 COMMANDS = {"GET MANUAL OFFSETS": get_offsets, "GET IPO OFFSET": get_offsets}

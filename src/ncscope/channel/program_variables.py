@@ -72,6 +72,8 @@ PROGRAM_ROWS: dict[str, Row] = {
     ),
     **axis_rows("V.A.-SWE", Row(limit(0), None, "negative software limit")),
     **axis_rows("V.A.+SWE", Row(limit(1), None, "positive software limit")),
+    **axis_rows("V.A.-SWE_MDS", Row(limit(0), None, "negative software limit of the list")),
+    **axis_rows("V.A.+SWE_MDS", Row(limit(1), None, "positive software limit of the list")),
     **axis_rows("V.A.REF", Row(reference, None, "reference position")),
     **axis_rows("V.A.MODE", Row(axis_mode, None, "1 linear, 4 modulo")),
     **axis_rows("V.A.MODULO_VALUE", Row(modulo_value, None, "size of the modulo range")),

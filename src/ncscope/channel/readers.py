@@ -9,9 +9,6 @@ import numpy as np
 from ncscope.channel.draft import Draft
 from ncscope.channel.rows import Reference
 
-DEFAULT_LIMIT = 10_000.0
-"""Mm or degrees; the default of both software limits (P-AXIS-00177, P-AXIS-00178)."""
-
 
 def measured(field: str) -> Callable[[Draft, Reference], float]:
     def read(draft: Draft, ref: Reference) -> float:
@@ -57,18 +54,3 @@ def manual_offset(draft: Draft, ref: Reference) -> float:
     """What #GET MANUAL OFFSETS fetched last."""
     name = draft.state.axis_names[ref.axis]
     return draft.shown(ref.axis, draft.state.manual_offsets.get(name, 0.0))
-
-
-def reference(draft: Draft, ref: Reference) -> float:
-    """Where the axis stands after homing."""
-    return draft.shown(ref.axis, draft.state.axes[ref.axis].reference)
-
-
-def limit(side: int) -> Callable[[Draft, Reference], float]:
-    """A software limit, 0 the lower and 1 the upper one; 10 m where none is monitored."""
-
-    def read(draft: Draft, ref: Reference) -> float:
-        limits = draft.state.axes[ref.axis].limits or (-DEFAULT_LIMIT, DEFAULT_LIMIT)
-        return draft.shown(ref.axis, limits[side])
-
-    return read

@@ -222,17 +222,7 @@ VARIABLES: dict[str, Row] = {
         "V.A.MANUAL_OFFSETS", Row(readers.manual_offset, None, "manual offset fetched last")
     ),
     **axis_rows("V.A.SOFFS", Row(readers.manual_offset, None, "old name of V.A.MANUAL_OFFSETS")),
-    **axis_rows("V.A.REF", Row(readers.reference, None, "reference position")),
     **axis_rows("V.A.RERF", Row(lambda d, r: 1.0, None, "1: axes are taken as homed")),
-    **{
-        pattern: row
-        for suffix in ("", "_MDS")
-        for sign, row in (
-            ("-", Row(readers.limit(0), None, "lower software limit")),
-            ("+", Row(readers.limit(1), None, "upper software limit")),
-        )
-        for pattern, row in axis_rows(f"V.A.{sign}SWE{suffix}", row).items()
-    },
     **axis_rows("V.A.PSET", Row(_offset_reader("pset"), None, "position preset (#PSET)")),
     **axis_rows("V.A.PZV", Row(_offset_reader("clamp"), None, "clamp position offset")),
     **program_variables.PROGRAM_ROWS,
