@@ -6,6 +6,7 @@ Source: TF5200 coordinate systems and offsets
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -35,6 +36,21 @@ def turn_on(draft: Draft, turn: Turn, span: Span) -> None:
         draft.fail("N2022", span, what, "switch it on before #MCS ON or after #MCS OFF")
     draft.state = replace(draft.state, turn=turn)
     set_contour(draft, replace(draft.state.coordinates.contour, turn=turn))
+
+
+def plane_axes(draft: Draft, span: Span, what: str) -> tuple[int, int]:
+    """The two axes of the plane; fails where the channel has no such axis (20010)."""
+    first, second, _ = draft.state.main_axes
+    _require(draft, (first, second), span, what)
+    return first, second
+
+
+def _require(draft: Draft, axes: Iterable[int], span: Span, what: str) -> None:
+    """Fails where the channel has fewer axes than the place of one of these."""
+    if max(axes, default=-1) >= len(draft.state.axes):
+        names = " ".join(draft.state.axis_names)
+        text = f"{what} needs an axis of plane G{draft.modes.plane} that the channel lacks: {names}"
+        draft.fail("20010", span, text, "choose another plane, or add the axis to the channel")
 
 
 def turn_off(draft: Draft, span: Span) -> None:
@@ -74,7 +90,8 @@ def rotation(draft: Draft, words: Words) -> None:
         turn_off(draft, words.gfunctions[69].span)
     if 68 not in words.gfunctions:
         return
-    first, second, third = draft.state.main_axes
+    first, second = plane_axes(draft, words.gfunctions[68].span, "G68")
+    third = draft.state.main_axes[2]
     if third in words.axes:
         name = draft.state.axis_names[third]
         what = f"{name} is not in the plane; G68 takes the two axes of the plane only"
@@ -113,6 +130,7 @@ def _mirror_plane(draft: Draft, number: int, span: Span) -> None:
         draft.fail("N2021", span, f"G{number} after G351 is not modelled", hint)
     first, second, _ = draft.state.main_axes
     axes = {20: (), 21: (first,), 22: (second,), 23: (first, second)}[number]
+    _require(draft, axes, span, f"G{number}")
     origin = draft.place if axes else None
     set_contour(draft, replace(contour, mirror=frozenset(axes), mirror_origin=origin))
 

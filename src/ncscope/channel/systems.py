@@ -117,11 +117,17 @@ def unlink(draft: Draft, span: Span, gone: Container[int]) -> None:
     draft.set_coordinates(replace(coordinates, levels=levels), span)
 
 
+def require_main_axes(draft: Draft, span: Span, what: str) -> None:
+    """Fails for a channel with fewer than three axes (20010)."""
+    count = len(draft.state.axes)
+    if count < 3:
+        draft.fail("20010", span, f"{what} needs three main axes; the channel has {count}")
+
+
 def check_axes(draft: Draft, span: Span, kind: str) -> None:
     """Three main axes are needed, and none of them may be a modulo axis."""
     axes = draft.state.axes
-    if len(axes) < 3:
-        draft.fail("20010", span, f"{kind} needs three main axes; the channel has {len(axes)}")
+    require_main_axes(draft, span, kind)
     for axis in axes[:3]:
         if axis.modulo_range is not None:
             what = f"{kind} is not allowed: the main axis {axis.name} is a modulo axis"

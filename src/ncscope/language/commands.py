@@ -307,6 +307,8 @@ COMMANDS: tuple[Command, ...] = (
     Command("KIN DATA", "refused", "Writes the parameters of a kinematics."),
     Command("KIN TCP DEF", "refused", "Defines a tool centre point."),
     Command("KIN TCP DELETE", "refused", "Defines a tool centre point."),
+    Command("MIRROR ON", "refused", "Mirrors; its manual page is not known here, write G351."),
+    Command("MIRROR OFF", "refused", "Mirrors; its manual page is not known here, write G351."),
     Command("ORI MODE", "refused", "Sets how orientations move."),
     Command("OTC ON", "refused", "Compensates the tool online."),
     Command("OTC OFF", "refused", "Compensates the tool online."),

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ncscope.channel import diameter
 from ncscope.channel.circle import CIRCULAR
-from ncscope.channel.contour import set_contour, turn_off, turn_on
+from ncscope.channel.contour import plane_axes, set_contour, turn_off, turn_on
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number
 from ncscope.channel.words import axis_values
@@ -27,7 +27,7 @@ SUPPRESSED = {
 
 def rotation_on(draft: Draft, command: tree.HashCommand) -> None:
     """#ROTATION ON [ANGLE=30 CENTER1=10 CENTER2=20]; without bracket the values used last."""
-    first, second, _ = draft.state.main_axes
+    first, second = plane_axes(draft, command.span, "#ROTATION ON")
     values = {"ANGLE": 0.0, "CENTER1": 0.0, "CENTER2": 0.0}
     items = [item for group in command.groups for item in group.items]
     for item in items:

@@ -22,7 +22,7 @@ from ncscope.channel.commands.named_systems import (
 )
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number
-from ncscope.channel.systems import text_of
+from ncscope.channel.systems import require_main_axes, text_of
 from ncscope.channel.words import axis_values
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
@@ -49,6 +49,7 @@ def transform(draft: Draft, command: tree.HashCommand) -> None:
         draft.fail("20675", command.span, "#TRANSFORM needs two names and a position", _FORM)
     source, target = (name_in(draft, group, _FORM) for group in groups[:2])
     given = dict(enumerate(_point(draft, groups[2])))
+    require_main_axes(draft, command.span, "#TRANSFORM")
     if len(groups) == 4:
         given.update(_axes_in(draft, groups[3]))
     axes = draft.state.position.axes
