@@ -278,6 +278,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("SAVE CONFIG", "refused", "Saves, loads or clears settings."),
     Command("LOAD CONFIG", "refused", "Saves, loads or clears settings."),
     Command("CLEAR CONFIG", "refused", "Saves, loads or clears settings."),
+    Command("ACHSE", "refused", "Axes of manual mode, old form; write them behind G200, G201."),
     Command("CAX", "refused", "Turns a spindle into a contour axis."),
     Command("CAX OFF", "refused", "Turns a spindle into a contour axis."),
     Command("CAXTRACK ON", "refused", "Follows the contour with an axis."),
