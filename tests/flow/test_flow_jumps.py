@@ -60,6 +60,8 @@ def test_jump_into_a_loop(loop):
         ("X1\n$GOTO N20\nN20 X2\nM30\n", ("20840", 2)),
         ("X1\n[A] X2\n[A] X3\nM30\n$GOTO [A]\n", ("20836", 3)),
         ("X1 [A] X2\nM30\n", ("21187", 1)),
+        ("X1 N20: X2\nM30\n", ("21187", 1)),
+        ("[A] N20: X2\nM30\n", ("21187", 1)),
     ],
 )
 def test_labels_that_are_wrong(text, expected):

@@ -163,3 +163,22 @@ def test_program_with_loops_has_a_limit_of_its_own(monkeypatch):
 def test_condition_that_fails_is_marked():
     (error,) = go("$IF 1/0\nX1\n$ENDIF\nM30\n").diagnostics
     assert (error.id, error.line) == ("20396", 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("$IF 0\n$ELSEIF 1 X1\nX2\n$ENDIF\n", 2),
+        ("$IF 0\nX1\n$ENDIF X2\n", 3),
+        ("$IF 1\nX1\n$ELSE\n$ENDIF X2\n", 4),
+        ("$SWITCH 1\n$CASE 1 X1\nX2\n$ENDSWITCH\n", 2),
+        ("$SWITCH 1\n$DEFAULT X1\nX2\n$ENDSWITCH\n", 2),
+        ("$SWITCH 1\n$CASE 1\nX1\n$BREAK\n$DEFAULT\n$ENDSWITCH X2\n", 6),
+        ("$WHILE 0\nX1\n$ENDWHILE X2\n", 3),
+        ("$WHILE 1\n$BREAK\n$ENDWHILE X2\n", 3),
+        ("$FOR P1 = 2,1,1\nX1\n$ENDFOR X2\n", 3),
+    ],
+)
+@pytest.mark.parametrize("bulk", [True, False])
+def test_words_beside_a_branch_or_an_end_are_not_dropped(text, line, bulk):
+    assert ids(go(text + "X9\nM30\n", bulk=bulk)) == [("20206", line)]

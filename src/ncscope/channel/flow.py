@@ -105,9 +105,12 @@ class Walker:
         return at + 1
 
     def _behind(self, draft: Draft, statement: Statement, ran: bool) -> int:
-        """Behind the end of a statement; without an end, the end of the program level."""
+        """Behind the end of a statement; without an end, the end of the program level.
+
+        To the end itself where its block is wrong: executing it reports that.
+        """
         if statement.end is not None:
-            return statement.end + 1
+            return statement.end + self.layout.entries[statement.end].block.ok
         if ran:
             return self.level[1]
         span = self.layout.entries[statement.first].span
@@ -120,6 +123,8 @@ class Walker:
 
     def _if(self, draft: Draft, statement: Statement) -> int:
         for at in (statement.first, *statement.branches):
+            if not self.layout.entries[at].block.ok:
+                return at  # executing it reports what is wrong with it
             condition = _condition(self.layout.entries[at])
             if condition is None or _true(draft, condition):
                 return at + 1
@@ -129,6 +134,8 @@ class Walker:
         entries, default = self.layout.entries, None
         value = evaluate_number(draft, _control(entries[statement.first]).values[0])
         for at in statement.branches:
+            if not entries[at].block.ok:
+                return at  # executing it reports what is wrong with it
             case = _condition(entries[at])
             if case is None:
                 default = at + 1

@@ -196,6 +196,8 @@ def _control(layout: Layout, at: int, entry: Entry) -> Step:
     statement = layout.statements.get(at)
     if statement is None or statement.end is None or entry.block.words:
         raise NotInline
+    if not layout.entries[statement.end].block.ok:
+        raise NotInline
     keyword = entry.keyword
     if keyword == "IF" and not jumps(entry.block.control):
         return _compiled(_branches(layout, statement))

@@ -219,16 +219,24 @@ def _content(cursor: Cursor, draft: _Draft, declarations: bool) -> None:
         case "$":
             _control(cursor, draft)
         case "N" | "n":
+            start, label = cursor.at, draft.label
             _block_number(cursor, draft)
+            if draft.label != label:
+                raise _late_label(cursor, start)
         case "%":
             raise cursor.mistake("20193", "A program header must begin its line.")
-        case "[" if cursor.match(_LABEL):
-            raise cursor.mistake("21187", "A label must stand first in its block.")
+        case "[" if found := cursor.match(_LABEL):
+            raise _late_label(cursor, found.start())
         case _ if declarations:
             draft.declarations.append(declaration(cursor))
             cursor.take(",")
         case _:
             draft.words.append(word(cursor))
+
+
+def _late_label(cursor: Cursor, start: int) -> Mistake:
+    message = "A label must stand first in its block."
+    return cursor.mistake("21187", message, span=cursor.span(start))
 
 
 def _hash(cursor: Cursor, draft: _Draft) -> None:
