@@ -92,8 +92,8 @@ class Draft:
         if joined and joined[1] in names:
             word, rest = joined[1] + joined[2], joined[3]
             hint = f"all before = is one name: write a blank after the value, {word} {rest}=.."
-        has = " ".join(names)
-        self.fail(id, span, f"axis {name} is not in this channel; it has the axes {has}", hint)
+        has = f"the axes {' '.join(names)}" if names else "no axes"
+        self.fail(id, span, f"axis {name} is not in this channel; it has {has}", hint)
 
     def length(self, axis: int, value: float) -> float:
         """A programmed value of an axis in mm or degrees."""

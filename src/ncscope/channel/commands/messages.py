@@ -32,8 +32,11 @@ def save(draft: Draft, command: tree.HashCommand) -> None:
 
 
 def show(draft: Draft, command: tree.HashCommand) -> None:
-    """#MSG [SYN] [receiver] ["text", value ..]: a message to a display or to the PLC."""
-    _modes(draft, command, SHOW_MODES)
+    """#MSG SYN HMI ["text", value ..]: a message to a display or to the PLC.
+
+    The receiver is a word or stands in brackets of its own.
+    """
+    _modes(draft, command, SHOW_MODES | RECEIVERS)
     if len(command.groups) == 2:
         _check_receiver(draft, command.groups[0])
     elif len(command.groups) > 2:
@@ -41,7 +44,7 @@ def show(draft: Draft, command: tree.HashCommand) -> None:
     draft.messages.append(Message(None, _text(draft, command), span=command.span))
 
 
-_FORM = 'write #MSG ["text"], or with a receiver #MSG [HMI] ["text"]'
+_FORM = 'write #MSG ["text"], or with a receiver #MSG HMI ["text"]'
 
 
 def _modes(draft: Draft, command: tree.HashCommand, known: frozenset[str]) -> set[str]:
