@@ -261,7 +261,7 @@ CATALOGUE: dict[str, Entry] = {
     "N1005": Entry("error", "The command is written wrongly."),
     "N1006": Entry("error", "The argument of a function is out of range."),
     "N1007": Entry("error", "A control statement has no beginning that it belongs to."),
-    "N1008": Entry("error", "A text is longer than the variable that it is assigned to."),
+    "N1008": Entry("error", "A text is longer than its variable, or than 4000 characters."),
     # Channel, our own
     "N2001": Entry("error", "The command moves positions and is not supported yet."),
     "N2002": Entry("note", "The command has no effect on positions."),

@@ -158,3 +158,11 @@ def test_values_from_the_command_line(tmp_path):
     for wrong in ("LENGTH=1", "V.E.LENGTH", "V.E.A[3]=1"):
         result = CliRunner().invoke(app, ["run", str(program), "--set", wrong])
         assert result.exit_code == 2 and "--set" in result.output
+
+
+def test_text_does_not_grow_without_end():
+    """20 characters are 2560 after seven doublings; the eighth would make 5120."""
+    text = 'V.P.A="01234567890123456789"\n$WHILE 1\nX[LEN[V.P.A]]\nV.P.A=V.P.A+V.P.A\n$ENDWHILE\n'
+    result = go(text, max_blocks=1000)
+    assert result.acs[:, 0].tolist() == [20 * 2**n for n in range(8)]
+    assert ids(result) == [("N1008", 4)]

@@ -54,6 +54,10 @@ class Environment(Protocol):
 Compiled = Callable[[Environment], Value]
 
 
+LONGEST_TEXT = 4000
+"""Characters of a text, as many as a block has: a loop must not fill the memory."""
+
+
 class EvaluationError(Exception):
     """An expression has no value here."""
 
@@ -170,7 +174,10 @@ def _binary_on_values(node: Binary) -> Compiled:
     def run(environment: Environment) -> Value:
         a, b = left(environment), right(environment)
         if isinstance(a, str) and isinstance(b, str):
-            return on_strings(a, b)
+            try:
+                return on_strings(a, b)
+            except NoValue as error:
+                raise failure(error.id, span, error.message) from None
         pair = (_as_number(node.left, a, environment), _as_number(node.right, b, environment))
         return _checked(on_numbers, pair, span)
 
@@ -308,6 +315,12 @@ def _power(base: float, exponent: float) -> float:
     return math.pow(base, exponent)
 
 
+def _joined(left: str, right: str) -> str:
+    if len(left) + len(right) > LONGEST_TEXT:
+        raise NoValue("N1008", f"A text has at most {LONGEST_TEXT} characters.")
+    return left + right
+
+
 def _remainder(dividend: float, divisor: float) -> float:
     quotient(dividend, divisor)
     return math.fmod(dividend, divisor)
@@ -334,7 +347,7 @@ ARITHMETIC: dict[str, Callable[[float, float], float]] = {
     ">=": lambda a, b: float(a >= b),
 }
 _ON_STRINGS: dict[str, Callable[[str, str], Value]] = {
-    "+": lambda a, b: a + b,
+    "+": _joined,
     "==": lambda a, b: float(a == b),
     "!=": lambda a, b: float(a != b),
     "<": lambda a, b: float(a < b),
