@@ -56,6 +56,7 @@ CATALOGUE: dict[str, Entry] = {
     "21527": Entry("error", "#PTP needs an active transformation."),
     "21528": Entry("error", "The transformation cannot be switched off while #PTP is active."),
     "21529": Entry("error", "Coordinate systems cannot be switched off while #PTP is active."),
+    "21530": Entry("error", "Arcs, chamfers and roundings are not possible while #PTP is active."),
     "21531": Entry("error", "#MCS cannot be switched while #PTP is active."),
     "21550": Entry("error", "Coordinate systems cannot be switched on while #PTP is active."),
     "21552": Entry("error", "A transformation cannot be switched on while #PTP is active."),
@@ -277,7 +278,6 @@ CATALOGUE: dict[str, Entry] = {
     "N2025": Entry("error", "A measuring offset that does not exist cannot be included or ended."),
     "N2026": Entry("note", "Manual mode moves nothing: no jog increments are given."),
     "N2027": Entry("error", "G74 needs at least one axis."),
-    "N2070": Entry("note", "#PTP changes the path between end points; it is shown without it."),
     "N2029": Entry("warning", "A tool changes more of the kinematics than its zero position."),
     "N2028": Entry("error", "A correction of the tool length is active already."),
     "N2035": Entry("error", "G04 needs its time."),
@@ -299,6 +299,7 @@ CATALOGUE: dict[str, Entry] = {
     "N2091": Entry("error", "The program stopped with an error of its own (#ERROR)."),
     "N2092": Entry("warning", "A requested axis is in the channel already."),
     "N2052": Entry("error", "A system already has offsets of its own for the further axes."),
+    "N2071": Entry("warning", "The axes left the pose of the transformation under #MCS."),
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),

@@ -51,12 +51,14 @@ class ActiveKinematics:
     """A selected kinematics with the pose that it keeps until it is deselected.
 
     turns_direction: coordinate systems turn the programmed direction too (P-CHAN-00247).
+    point_to_point: between the ends of a move the axes run straight, not the tip (#PTP).
     """
 
     model: KinematicStep
     pose: Pose | None = None
     origin: str | None = None
     turns_direction: bool = False
+    point_to_point: bool = False
 
 
 @dataclass(frozen=True)
@@ -223,6 +225,11 @@ class Coordinates:
         return replace(self, levels=levels, contour=contour, program_step=None)
 
     # --- parts ---------------------------------------------------------------------------------
+
+    @property
+    def point_to_point(self) -> bool:
+        """Whether the axes run straight between the ends of moves, and not the tip (#PTP)."""
+        return self.kinematics is not None and self.kinematics.point_to_point
 
     @property
     def top(self) -> Level:

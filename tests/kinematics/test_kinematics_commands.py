@@ -322,8 +322,36 @@ def test_point_to_point_has_the_same_end_points():
     text = "V.G.WZ_AKT.L=10\n#TRAFO ON\n{}X0 Y0 Z0 A90\n{}#TRAFO OFF"
     plain = positions(text.format("", ""))
     assert positions(text.format("#PTP ON\n", "#PTP OFF\n")) == plain == [[0, -10, 0, 0, 90]]
-    result = run("#KIN ID [91]\n#TRAFO ON\n#PTP ON\nX1\n#PTP OFF\n#TRAFO OFF")
-    assert [d.id for d in result.diagnostics] == ["N2070"]
+    assert run("#KIN ID [91]\n#TRAFO ON\n#PTP ON\nX1\n#PTP OFF\n#TRAFO OFF").diagnostics == ()
+
+
+@pytest.mark.parametrize("fields", [HEAD, COMPLETE])
+def test_point_to_point_moves_the_axes_straight(fields):
+    """Every point lies on the straight line of the axes, and its words are those of the tip.
+
+    Tool length 100, from C0 A0 to C80 A40 at one tip: the axes go from (0, 0, 100) to
+    100 (sin80 sin40, -cos80 sin40, cos40). Half-way, at C40 A20, the tip is the middle of these
+    minus 100 (sin40 sin20, -cos40 sin20, cos20).
+    """
+    text = "#KIN ID [91]\nV.G.WZ_AKT.L=100\n#TRAFO ON\nG0 X0 Y0 Z0 C0 A0\n{}\nC80 A40\n#{} OFF"
+    options = ncscope.Options(sample=0.5)
+    result = ncscope.run(machine(fields), text.format("#PTP ON", "PTP"), options)
+    share = result.acs[1:, 4] / 40.0
+    assert len(share) >= 8 and not result.end[1:-1].any()
+    straight = result.acs[0] + share[:, None] * (result.acs[-1] - result.acs[0])
+    np.testing.assert_allclose(result.acs[1:], straight, atol=1e-9)
+    np.testing.assert_allclose(result.pcs[1:, 3:], result.acs[1:, 3:], atol=1e-9)
+    middle = int(np.flatnonzero(np.isclose(share, 0.5))[0]) + 1
+
+    def tool(c, a):
+        c, a = np.radians([c, a])
+        return 100 * np.array([np.sin(c) * np.sin(a), -np.cos(c) * np.sin(a), np.cos(a)])
+
+    tip = (tool(0, 0) + tool(80, 40)) / 2 - tool(40, 20)
+    np.testing.assert_allclose(result.pcs[middle, :3], tip, atol=1e-9)
+    np.testing.assert_allclose(result.pcs[-1], [0, 0, 0, 80, 40], atol=0)
+    plain = ncscope.run(machine(fields), text.format("", "TRAFO"), options)
+    np.testing.assert_allclose(plain.mcs[:, :3], 0, atol=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -336,10 +364,29 @@ def test_point_to_point_has_the_same_end_points():
         ("#TRAFO ON\n#PTP ON\n#CS ON [1,2,3]", "21550"),
         ("#TRAFO ON\n#CS ON [1,2,3]\n#PTP ON\n#CS OFF", "21529"),
         ("#TRAFO ON\n#PTP ON\n#MCS ON", "21531"),
+        ("#TRAFO ON\n#PTP ON\nG02 F1000 X10 I5", "21530"),
+        ("#TRAFO ON\nG02 F1000 X10 I5\n#PTP ON\nX20 I5", "21530"),
+        ("#TRAFO ON\n#PTP ON\nG01 F1000 X10\nG302 I2\nY10", "21530"),
     ],
 )
 def test_point_to_point_excludes(text, id):
     assert [found[0] for found in errors(text)] == [id]
+
+
+# --- the pose and #MCS -------------------------------------------------------------------------
+
+
+def test_the_pose_stays_fixed_when_mcs_takes_the_axes_into_the_other_one():
+    """C0 A40 and C180 A-40 are the same direction; only a new selection takes the second."""
+    text = "#TRAFO ON\nX0 Y0 Z0 C0 A40\n#MCS ON\nC180 A-40\n#MCS OFF\n"
+    assert positions(text + "X1 C0 A40", machine(COMPLETE))[-1][3:] == [0, 40]
+    again = "#TRAFO OFF\n#TRAFO ON\nX1 C0 A40"
+    assert positions(text + again, machine(COMPLETE))[-1][3:] == [180, -40]
+    found = run("#KIN ID [91]\n" + text + "X1\n#TRAFO OFF", machine(COMPLETE)).diagnostics
+    assert [(d.id, d.line) for d in found] == [("N2071", 6)]
+    for rtcp_or_same in (machine(), machine(COMPLETE)):
+        same = "#KIN ID [91]\n#TRAFO ON\nC0 A40\n#MCS ON\nX5 A30\n#MCS OFF\n#TRAFO OFF"
+        assert run(same, rtcp_or_same).diagnostics == ()
 
 
 # --- tools --------------------------------------------------------------------------------------

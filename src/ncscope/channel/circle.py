@@ -83,6 +83,9 @@ def arc(draft: Draft, words: Words, centre: dict[int, Word], target: Array, span
 
     Fails where centre, radius and end point describe no arc.
     """
+    if draft.state.coordinates.point_to_point:
+        what = "arcs are not allowed while #PTP is active"
+        draft.fail("21530", span, what, "write #PTP OFF before the arc, or G00 or G01")
     circle = _circle(draft, target, span)
     radius_word = words.addresses.pop("R", None)
     pitch = _outside_plane(draft, words, centre, circle)

@@ -73,6 +73,9 @@ def beside_motion(draft: Draft, words: Words) -> None:
 
 def _insert(draft: Draft, rounding: bool, value: float, width: bool, span: Span) -> None:
     plane = draft.state.main_axes
+    if draft.state.coordinates.point_to_point:
+        what = "no chamfer or rounding while #PTP is active: its path is not that of the contour"
+        draft.fail("21530", span, what, "write #PTP OFF before it")
     if max(plane[:2]) >= len(draft.state.axes):
         draft.fail("20010", span, "a chamfer or rounding needs the two axes of the plane")
     feed = draft.inserts["FRC"][0] if "FRC" in draft.inserts else draft.modes.feed

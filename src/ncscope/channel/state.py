@@ -118,7 +118,7 @@ class Kinematics:
 
     parameters: of the first step, by id. second, program: those of the second step and of PCS
     transformations. ids: preselected for the first and the second step, 0 for none. active: the
-    ids that are on. program_id: preselected for #TRAFO PCS. point_to_point: #PTP is on.
+    ids that are on. program_id: preselected for #TRAFO PCS.
     """
 
     parameters: Mapping[int, KinematicParameters]
@@ -127,7 +127,6 @@ class Kinematics:
     second: Mapping[int, KinematicParameters] = field(default_factory=dict)
     program: Mapping[int, KinematicParameters] = field(default_factory=dict)
     program_id: int = 0
-    point_to_point: bool = False
 
     @property
     def is_on(self) -> bool:

@@ -113,6 +113,9 @@ def sample(
     if not tolerance >= FINEST:
         raise ValueError(f"the tolerance has to be {FINEST:g} or more")
     before = np.concatenate([near[None], acs[:-1]])
+    written = paths
+    if coordinates.point_to_point:
+        paths = _axis_paths(coordinates, paths, before, acs)
     row, share, coarse = _breaks(coordinates, paths, tolerance)
     start = np.concatenate([[0.0], share[:-1]]) * (share > np.roll(share, 1))
     open_, done = _Segments.between(coordinates, paths, row, start, share, before), []
@@ -129,7 +132,39 @@ def sample(
         else:
             open_ = open_.halved(coordinates, paths)
     points = _ordered([*done, open_], acs, tuple(sorted(coarse)))
+    if coordinates.point_to_point:
+        return _read_back(coordinates, written, points)
     return replace(points, pcs=coordinates.shown(points.pcs))
+
+
+def _axis_paths(coordinates: Coordinates, paths: Paths, before: Array, acs: Array) -> Paths:
+    """Straight ways (m) of the axes under #PTP, as paths in axis positions.
+
+    A modulo axis goes as far as it is programmed, an angle that the kinematics computes the short
+    way if its axis is a modulo axis.
+    """
+    active = coordinates.kinematics
+    asked = paths.end - paths.start
+    if active is not None:
+        asked[:, list(active.model.orientation)] = 0.0
+    way = acs - before
+    way -= coordinates.modulo.whole_turns(way - asked)
+    return Paths(before, before + way, {})
+
+
+def _read_back(coordinates: Coordinates, paths: Paths, points: Points) -> Points:
+    """Points of axis paths with the programmed values that belong to them."""
+    acs = coordinates.modulo.wrap(points.acs)
+    ends = points.share == 1.0
+    acs[ends] = points.acs[ends]
+    pcs = paths.at(points.row, points.share)
+    try:
+        pcs[~ends] = coordinates.to_program(acs[~ends], near=pcs[~ends])
+    except KinematicsError:  # no words lead to some position on the way: the ends alone are sure
+        coarse = tuple(sorted({*points.coarse, *points.row[~ends].tolist()}))
+        pcs, acs, row = pcs[ends], acs[ends], points.row[ends]
+        points = Points(row, points.share[ends], pcs, acs, coarse)
+    return replace(points, pcs=coordinates.shown(pcs), acs=acs)
 
 
 @dataclass(frozen=True)
@@ -247,6 +282,8 @@ def _whole_turns(coordinates: Coordinates, difference: Array) -> Array:
 
 def _axes(coordinates: Coordinates, pcs: Array, near: Array) -> Array:
     """Axis positions (k, n), each near its own row; NaN where the machine cannot get."""
+    if coordinates.point_to_point:
+        return pcs  # paths of axis positions, see `_axis_paths`
     try:
         return coordinates.to_axes(pcs, near=near)
     except KinematicsError as error:

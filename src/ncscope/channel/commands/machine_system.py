@@ -8,15 +8,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
 from ncscope.channel.state import Suspended
 from ncscope.channel.tools import renew_kinematics
 from ncscope.coordinates import Coordinates
+from ncscope.kinematics.step import KinematicsError
 from ncscope.language import tree
 
 REFUSED = frozenset({"CS", "ACS", "BCS", "ECS", "TLC", "TRAFO", "RTCP"})
 """First words of the commands that cannot stand between #MCS ON and #MCS OFF."""
+POSE_CHANGE = 1e-3
+"""Degrees: axes that would turn by more stand in another pose."""
 
 
 def refuse_inside(draft: Draft, command: tree.HashCommand) -> None:
@@ -60,6 +65,21 @@ def off(draft: Draft, command: tree.HashCommand) -> None:
     )
     draft.set_coordinates(restored, command.span)
     renew_kinematics(draft, command.span)
+    _warn_of_pose(draft, command)
+
+
+def _warn_of_pose(draft: Draft, command: tree.HashCommand) -> None:
+    """The pose is fixed while a transformation is selected, wherever #MCS took the axes."""
+    position, coordinates = draft.state.position, draft.state.coordinates
+    try:
+        wanted = coordinates.to_axes(position.program, near=position.axes)
+    except KinematicsError:
+        return  # the next motion will say so
+    turn = (wanted - position.axes)[3:]
+    if np.any(np.abs(turn - 360.0 * np.round(turn / 360.0)) > POSE_CHANGE):
+        what = "the axes stand in another pose than the transformation keeps since its selection"
+        hint = "the next motion turns them back; #TRAFO OFF and #TRAFO ON would take this pose"
+        draft.warn("N2071", command.span, what, hint)
 
 
 def _ex_tool(draft: Draft, command: tree.HashCommand) -> bool:

@@ -1,6 +1,6 @@
 """#PTP ON, #PTP OFF: with a transformation, axes go straight to the same end point.
 
-The path between two positions is another one; end points, and so everything here, are the same.
+End points are the same with and without it; points between them lie where straight axes lead.
 Source: TF5200 #PTP.
 """
 
@@ -18,7 +18,7 @@ ALLOWED = frozenset({"DEF", "MODE", "ADD"})
 
 def refuse_inside(draft: Draft, command: tree.HashCommand) -> None:
     """Fails for a command that is not allowed while #PTP is active."""
-    id = _refusal(command.name) if draft.state.kinematics.point_to_point else None
+    id = _refusal(command.name) if draft.state.coordinates.point_to_point else None
     if id is not None:
         what = f"#{command.name} is not allowed while #PTP is active"
         draft.fail(id, command.span, what, "write #PTP OFF before it")
@@ -33,18 +33,17 @@ def _refusal(name: str) -> str | None:
 
 
 def _switch(draft: Draft, command: tree.HashCommand, on: bool) -> None:
-    if draft.state.coordinates.kinematics is None:
+    coordinates = draft.state.coordinates
+    if coordinates.kinematics is None:
         what = f"#{command.name} is only allowed while a transformation is active"
         draft.fail("21527", command.span, what, "write #TRAFO ON before it")
-    held = replace(draft.state.kinematics, point_to_point=on)
-    draft.state = replace(draft.state, kinematics=held)
+    active = replace(coordinates.kinematics, point_to_point=on)
+    draft.set_coordinates(replace(coordinates, kinematics=active), command.span)
 
 
 def on(draft: Draft, command: tree.HashCommand) -> None:
     """#PTP ON"""
     _switch(draft, command, on=True)
-    what = "#PTP changes the path, not the end points; points between them are those without it"
-    draft.warn("N2070", command.span, what)
 
 
 def off(draft: Draft, command: tree.HashCommand) -> None:

@@ -92,7 +92,7 @@ def _switch_on(draft: Draft, command: tree.HashCommand, first: Choice, second: C
 
 
 def _refuse_point_to_point(draft: Draft, command: tree.HashCommand, id: str) -> None:
-    if draft.state.kinematics.point_to_point:
+    if draft.state.coordinates.point_to_point:
         what = f"#{command.name} is not allowed while #PTP is active"
         draft.fail(id, command.span, what, "write #PTP OFF before it")
 
