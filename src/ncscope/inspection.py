@@ -31,6 +31,8 @@ NEAR_POLE = 5.0
 """Degrees from the singular direction inside which swings are looked for."""
 SMALLEST_SWING = 20.0
 """Degrees that the first rotary axis turns, in one go, to be worth a warning."""
+CROSSING = 90.0
+"""A computed turn, in degrees, of at least so much leads past the pole to its other side."""
 SWING_RATIO = 10.0
 """So many times more than the tool direction the axis turns in a swing."""
 SAME_DIRECTION = 1e-4
@@ -340,9 +342,13 @@ def _swings(pole: Pole, s: Stretch, row: int) -> list[Swing]:
     start = np.where(moves[:, None] > 0, s.acs[moves - 1], s.start)
     end = s.acs[moves]
     distance = pole.closest(start, end)
-    change = _angle(pole.model.forward(start)[1], pole.model.forward(end)[1])
+    change = pole.tilt(start, end)
     turn = np.abs(turn[moves])
-    bad = (distance < NEAR_POLE) & (turn >= SWING_RATIO * change) & (change > SAME_DIRECTION)
+    far = turn >= SWING_RATIO * change
+    if not pole.model.rtcp:  # nobody asked for the turn, however far the tool tilts besides
+        leaves = pole.distance(np.stack([start, end])[..., pole.second]).min(axis=0)
+        far |= (turn >= CROSSING) & (leaves > SAME_DIRECTION)
+    bad = (distance < NEAR_POLE) & far & (change > SAME_DIRECTION)
     moves, distance, turn = moves[bad], distance[bad], turn[bad]
     if len(moves) == 0:
         return []
@@ -377,12 +383,6 @@ def _with_start(s: Stretch, column: int) -> Array:
 
 def _short_way(turn: Array) -> Array:
     return turn - 360.0 * np.round(turn / 360.0)
-
-
-def _angle(a: Array, b: Array) -> Array:
-    """Degrees (m,) between unit vectors (m, 3)."""
-    sine = np.linalg.norm(np.cross(a, b), axis=1)
-    return np.rad2deg(np.arctan2(sine, np.einsum("ij,ij->i", a, b)))
 
 
 def _number(value: float) -> str:

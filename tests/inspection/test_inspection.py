@@ -141,6 +141,22 @@ def test_swing_over_several_blocks_is_one_event():
     assert warnings(result) == [("N4102", 3)]
 
 
+def test_crossing_the_pole_in_a_complete_transformation_is_a_swing_however_far_the_tool_tilts():
+    """The pose with A >= 0 is kept: from C0 A10 to C0 A-10 the axes go to C180 A10."""
+    fields = (
+        HEAD if isinstance(HEAD, KinematicParameters) else KinematicParameters.from_fields(HEAD)
+    )
+    complete = replace(MACHINE, kinematic_parameters={91: fields.with_value(56, 0.0)})
+    text = "#TRAFO [91]\nG00 C0 A{}\nG01 F100 C{} A{}\n#TRAFO OFF\nM30\n"
+    result = ncscope.run(complete, text.format(10, 0, -10))
+    assert abs(result.acs[-1, 3:]).round(6).tolist() == [180, 10]
+    (swing,) = ncscope.inspect(result).swings
+    assert (swing.axis, swing.row, swing.last) == ("C", 1, 1)
+    assert (swing.distance, swing.swing) == pytest.approx((0, 180), abs=1e-5)
+    assert warnings(ncscope.run(complete, text.format(0, 120, 40))) == []  # begins on the pole
+    assert warnings(ncscope.run(complete, text.format(40, 120, 40))) == []  # far beside the pole
+
+
 @pytest.mark.parametrize(
     "blocks",
     [
@@ -194,8 +210,9 @@ def test_a_computed_angle_that_turns_over():
     assert [(w.row, w.before, w.after) for w in found.wraps] == [
         (0, 170, -170), (3, -10, 175), (4, 175, -175)
     ]  # fmt: skip
-    (warning,) = found.diagnostics()
-    assert warning.id == "N4103" and "3 times" in warning.message
+    # At A = 40 the shortest way of the direction from C 10 to C -170 leads over the pole.
+    warning, swing = found.diagnostics()
+    assert warning.id == "N4103" and "3 times" in warning.message and swing.id == "N4102"
 
 
 def test_a_modulo_axis_takes_the_short_way():

@@ -80,6 +80,12 @@ class Pole:
             near = np.where(passed, np.minimum(near, there), near)
         return near
 
+    def tilt(self, start: Array, end: Array) -> Array:
+        """Angle (m,) in degrees between the tool directions at axis values (m, n)."""
+        a, b = self.model.forward(start)[1], self.model.forward(end)[1]
+        sine = np.linalg.norm(np.cross(a, b), axis=1)
+        return np.rad2deg(np.arctan2(sine, np.einsum("ij,ij->i", a, b)))
+
     def _closest_on_arc(self, start: Array, end: Array) -> Array:
         a, b = self.model.forward(start)[1], self.model.forward(end)[1]
         normal = np.cross(a, b)
