@@ -264,7 +264,7 @@ CATALOGUE: dict[str, Entry] = {
     "N1007": Entry("error", "A control statement has no beginning that it belongs to."),
     "N1008": Entry("error", "A text is longer than its variable, or than 4000 characters."),
     # Channel, our own
-    "N2001": Entry("error", "The command moves positions and is not supported yet."),
+    "N2001": Entry("error", "The command moves positions and is not supported."),
     "N2002": Entry("note", "The command has no effect on positions."),
     "N2003": Entry("error", "A word is not used by any command in this block."),
     "N2004": Entry("error", "G92 needs at least one axis."),
@@ -303,7 +303,7 @@ CATALOGUE: dict[str, Entry] = {
     # Lists, our own
     "N3001": Entry("warning", "The line of a list is not an entry."),
     "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),
-    "N3003": Entry("note", "The entry is read and has no effect yet."),
+    "N3003": Entry("note", "The entry is read and has no effect."),
     "N3004": Entry("warning", "An axis has no axis list; its type was assumed from its name."),
     "N3005": Entry("warning", "A fraction stands where a whole number of list units belongs."),
     "N3006": Entry("error", "A list that is named cannot be read."),

@@ -27,12 +27,11 @@ G_EFFECTS = {
     "contour": "Programmed contour: mirror and rotation",
     "call": "Call of a configured subprogram",
     "quiet": "Noted once, without effect on positions",
-    "later": "Refused by name",
+    "refused": "Refused by name",
 }
 COMMAND_KINDS = {
     "modelled": "Modelled",
     "no effect": "Noted once, without effect on positions",
-    "later": "Refused by name until they are modelled",
     "refused": "Refused by name",
 }
 OWN_RANGES = {
@@ -121,7 +120,7 @@ def seed_status(row: SeedCommand) -> str:
         return "modelled" if name in VARIABLES else "unknown"
     if name[1:].isdigit():
         effect = GFUNCTIONS[int(name[1:])].effect
-        return G_EFFECTS[effect].lower() if effect in ("quiet", "later") else "modelled"
+        return G_EFFECTS[effect].lower() if effect in ("quiet", "refused") else "modelled"
     return {"D": "modelled"}[name]
 
 

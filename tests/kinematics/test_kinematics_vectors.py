@@ -116,7 +116,7 @@ def test_parameter_map_is_ours():
 
 def test_lists_are_in_tenths_of_a_micrometre():
     chain = Chain.from_parameters(
-        KinematicParameters.from_fields(DATA["machines"]["seed_8_KIN9_sim"]["param"])
+        KinematicParameters.from_fields(DATA["machines"]["fct_c27_8_KIN9_sim"]["param"])
     )
     np.testing.assert_allclose(chain.zero_position, [5.4, -39.5, -95.0])
     np.testing.assert_allclose(chain.points[4], [0, 16.5, -70.0])

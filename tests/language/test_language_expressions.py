@@ -1,4 +1,4 @@
-"""Values of expressions: worked cases of the reference, and Python as the oracle."""
+"""Values of expressions: worked cases of the programming manual, and Python as the oracle."""
 
 import math
 

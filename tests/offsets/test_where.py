@@ -98,9 +98,9 @@ def test_command_line(tmp_path):
     ("axes", "at", "code", "said"),
     [
         (["X1"], "part.nc:5", 2, "--axes X1: write an axis and its position"),
-        (["X=1,5"], "part.nc:5", 2, "--axes X=1,5: write an axis"),
-        (["X=nan"], "part.nc:5", 2, "--axes X=nan: write an axis"),
-        (["X=1", "X=2"], "part.nc:5", 2, "axis X is given twice"),
+        (["X=1,5"], "part.nc:5", 2, "--axes X=1,5: '1,5' is not a number"),
+        (["X=nan"], "part.nc:5", 2, "--axes X=nan: nan is not a finite number"),
+        (["X=1", "X=2"], "part.nc:5", 2, "--axes: X stands twice"),
         (["X=1"], "part.nc", 2, "write PROGRAM:LINE or PROGRAM:N40"),
         (["X=1"], "other.nc:5", 2, "cannot read other.nc"),
         (["B=1"], "part.nc:5", 1, "axis B is not in the channel at line 5; it has X Y Z C A"),

@@ -86,7 +86,7 @@ def _block_number(draft: Draft, block: tree.Block) -> int | None:
 
 def _execute(draft: Draft, block: tree.Block) -> None:
     """The order of effects inside a block (TF5200 programming manual)."""
-    # 1. Block number; what is not supported yet is refused by name.
+    # 1. Block number; what is not supported is refused by name.
     draft.state = replace(draft.state, block=_block_number(draft, block))
     _refuse_axis_commands(draft, block)
     # 2. # commands and declarations.
@@ -112,7 +112,7 @@ def _execute(draft: Draft, block: tree.Block) -> None:
 def _refuse_axis_commands(draft: Draft, block: tree.Block) -> None:
     for word in block.words:
         if isinstance(word, tree.AxisCommand):
-            draft.later(word.span, f"the axis command {word.name}[{word.keyword} ..]")
+            draft.refuse(word.span, f"the axis command {word.name}[{word.keyword} ..]")
 
 
 def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None:
@@ -126,7 +126,7 @@ def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None
     elif row is not None and row.kind == "no effect":
         draft.warn("N2002", command.span, f"#{command.name} has no effect on positions")
     else:
-        draft.later(command.span, f"#{command.name}")
+        draft.refuse(command.span, f"#{command.name}")
 
 
 # --- collect -----------------------------------------------------------------------------------

@@ -22,7 +22,7 @@ def select(draft: Draft, words: Words) -> None:
         span = words.gfunctions[51].span
         found = _face_axis(draft, span)
         if draft.machine.settings.offsets_in_diameter:
-            draft.later(span, "G51 with offsets in diameter (versch_im_durchm, P-CHAN-00091)")
+            draft.refuse(span, "G51 with offsets in diameter (versch_im_durchm, P-CHAN-00091)")
         draft.modal(diameter_axis=found)
     elif 52 in words.gfunctions:
         draft.modal(diameter_axis=None)

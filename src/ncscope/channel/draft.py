@@ -71,10 +71,10 @@ class Draft:
     def warn(self, id: str, span: Span, message: str, hint: str = "") -> None:
         self.diagnostics.append(diagnostic(id, span, message, hint))
 
-    def later(self, span: Span, what: str) -> NoReturn:
+    def refuse(self, span: Span, what: str) -> NoReturn:
         """The refusal by name of what moves positions and is not modelled."""
         hint = "the run stops here, because positions after it would not be right"
-        self.fail("N2001", span, f"{what} is not supported yet", hint)
+        self.fail("N2001", span, f"{what} is not supported", hint)
 
     # --- axes ----------------------------------------------------------------------------------
 

@@ -152,7 +152,7 @@ def _find(draft: Draft, node: tree.Variable, numbers: tuple[int, ...]) -> tuple[
         return VARIABLES[pattern], replace(reference, axis=axis)
     group = word_entry(".".join(names[:2]).partition("[")[0] + ".")
     if group is not None and group.kind == "refused":
-        draft.fail("N2001", node.span, f"{reference.text} is not supported yet ({group.purpose})")
+        draft.fail("N2001", node.span, f"{reference.text} is not supported ({group.purpose})")
     other = f"V.G.{key[2:]}"
     known = other in VARIABLES or other.startswith("V.G.KIN[].")
     hint = f"V.G.{reference.text[2:]} was probably meant" if known else ""

@@ -196,7 +196,7 @@ class Walker:
         label = _label(draft, control)
         target = self.find_label(draft, label, control.span)
         if not self.level[0] <= target < self.level[1]:
-            draft.fail("N2001", control.span, "a jump out of L SEQUENCE is not supported yet")
+            draft.fail("N2001", control.span, "a jump out of L SEQUENCE is not supported")
         here = self.layout.around[self.at]
         for statement in self.layout.around[target]:
             if statement.keyword in LOOPS and not any(s is statement for s in here):

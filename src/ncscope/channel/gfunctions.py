@@ -1,7 +1,7 @@
 """Every G function: its modal group, the control's id for two of a group, and what it does here.
 
 `effect` is `motion`, `modal`, `contour`, `offset`, `call`, `quiet` (no effect on positions, noted
-once) or `later` (moves positions and is refused by name).
+once) or `refused` (moves positions; stops the program by name).
 Source: TF5200 programming manual; P-CHAN-00063 modal groups.
 """
 
@@ -31,12 +31,12 @@ def _rows() -> dict[int, GFunction]:
     add("2 3", "motion", "20108", "motion", "circular motion")
     add("4", "motion", "20108", "quiet", "dwell")
     add("33 63", "motion", "20108", "motion", "thread cutting and tapping")
-    add("331 332", "motion", "20108", "later", "thread cutting and tapping")
+    add("331 332", "motion", "20108", "refused", "thread cutting and tapping")
     add("74", "motion", "20108", "motion", "homing")
     add("98 99", "motion", "20108", "modal", "software limits from the program")
     add("160", None, None, "offset", "take axes into or out of a zero offset group")
     add("301 302", "corner", "20130", "motion", "chamfer and rounding")
-    add("303", None, None, "later", "circle in space")
+    add("303", None, None, "refused", "circle in space")
     add("8 9 900 901 193 293", None, None, "quiet", "acceleration and feed at block limits")
     add("40", "radius", "20113", "modal", "cutter radius compensation off")
     add("41 42", "radius", "20113", "modal", "cutter radius compensation")
@@ -63,10 +63,10 @@ def _rows() -> dict[int, GFunction]:
         "335 336 337 338 339", None, None, "quiet", "dynamics, weights and feedforward")
     add("100", "measuring", "20123", "motion", "measuring run")
     add("106", None, None, "motion", "measuring run goes on to its target")
-    add("107 108 310", "measuring", "20123", "later", "measuring run")
+    add("107 108 310", "measuring", "20123", "refused", "measuring run")
     add("101 102", "measuring", "20123", "offset", "measured offset")
     add("150", None, None, "quiet", "spline off")
-    add("151", None, None, "later", "spline")
+    add("151", None, None, "refused", "spline")
     add("161 162", "centre", "20127", "modal", "circle centre absolute or relative")
     add("163", "radius value", None, "modal", "radius programming")
     add("164 165", "correction", "20128", "modal", "circle centre correction")

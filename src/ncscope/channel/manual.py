@@ -84,7 +84,7 @@ def _check_chain(draft: Draft, number: int, span: Span) -> None:
     steps = (chain.kinematics, chain.program_step, chain.length_step)
     if len(chain.levels) > 1 or any(step is not None for step in steps):
         what = f"jogging by G{number} inside a coordinate system or transformation"
-        draft.fail("N2001", span, f"{what} is not supported yet", "switch it off first")
+        draft.fail("N2001", span, f"{what} is not supported", "switch it off first")
 
 
 def _check_limits(draft: Draft, increments: Mapping[int, float], span: Span) -> None:

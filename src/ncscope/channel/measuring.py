@@ -46,7 +46,7 @@ def begin(draft: Draft, words: Words) -> Run:
         what = f"measuring type {kind} does not exist; types are 1 to {LAST_TYPE}"
         draft.fail("20138", span, what, "set P-CHAN-00057, or write #MEAS [TYPE=1]")
     if kind in INTERRUPTIBLE:
-        what = f"measuring type {kind} (interruptible) is not supported yet"
+        what = f"measuring type {kind} (interruptible) is not supported"
         draft.fail("N2001", span, what)
     through = words.gfunctions.pop(106, None)
     if through is not None and kind != THROUGH:

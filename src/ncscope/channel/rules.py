@@ -37,8 +37,8 @@ KNOWN_M = frozenset((0, 1, 2, 3, 4, 5, 17, 19, 29, 30, *range(40, 46)))
 def _refuse_g(draft: Draft, words: Words) -> None:
     for number, word in words.gfunctions.items():
         row: GFunction = GFUNCTIONS[number]
-        if row.effect == "later":
-            draft.later(word.span, f"G{number:02d} ({row.purpose})")
+        if row.effect == "refused":
+            draft.refuse(word.span, f"G{number:02d} ({row.purpose})")
         if row.effect == "quiet":
             draft.warn("N2002", word.span, f"G{number:02d} has no effect on positions")
     weighted = [n for n in words.gfunctions if n in WEIGHTED]

@@ -4,7 +4,7 @@ A definition is a shift in the axes of the level below and three angles, f3 abou
 first, then f2, then f1 about the axes already turned. Shift and angles always follow the order of
 the main axes in G17. From bottom to top lie #BCS, #ACS, #CS and the systems of #CS SELECT,
 whichever was switched on first; #ECS stands alone.
-Source: #CS seed; TF5200 coordinate systems and offsets
+Source: definition of #CS; TF5200 coordinate systems and offsets
 """
 
 from __future__ import annotations

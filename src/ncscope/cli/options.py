@@ -43,6 +43,9 @@ FoldersOption = Annotated[
     list[Path] | None,
     typer.Option("--subprograms", help="Another folder in which called files may lie."),
 ]
+BlocksOption = Annotated[
+    int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
+]
 
 
 def read_settings(texts: list[str] | None) -> dict[str, float | str]:

@@ -8,7 +8,19 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ncscope.cli.inputs import read_machine, run_program
-from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels
+from ncscope.cli.options import (
+    BlocksOption,
+    ClampOption,
+    FoldersOption,
+    KinematicsOption,
+    MachineOption,
+    ManualOption,
+    ProbeOption,
+    SetOption,
+    SkipOption,
+    read_levels,
+    read_settings,
+)
 from ncscope.cli.screen import fail, show_diagnostics
 
 if TYPE_CHECKING:
@@ -31,17 +43,18 @@ def plot_command(
         Path | None, typer.Argument(help="NC program; without it the machine is drawn.")
     ] = None,
     machine: MachineOption = None,
-    kinematics: Annotated[
-        int | None, typer.Option("--kinematics", help="Id of the kinematics to draw.")
-    ] = None,
+    kinematics: KinematicsOption = None,
+    id: Annotated[int | None, typer.Option("--id", help="Id of the kinematics to draw.")] = None,
     tool_length: Annotated[
         float, typer.Option("--tool-length", help="Length of the tool that is drawn, mm.")
     ] = 0.0,
     clamp: ClampOption = None,
     skip: SkipOption = "",
-    max_blocks: Annotated[
-        int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
-    ] = 0,
+    probe: ProbeOption = None,
+    manual: ManualOption = None,
+    values: SetOption = None,
+    folders: FoldersOption = None,
+    max_blocks: BlocksOption = 0,
     sample: SampleOption = SAMPLE,
 ) -> None:
     """Draw the path of a program with its axes, or the chain of a machine."""
@@ -49,15 +62,21 @@ def plot_command(
     if program is None:
         if machine is None:
             fail("plot needs a program, or --machine for a picture of the machine")
-        write_picture(out, _machine_picture(machine, kinematics, tool_length, form))
+        if kinematics is not None:
+            fail("--kinematics FILE.py is for a program; --id chooses the chain to draw")
+        write_picture(out, _machine_picture(machine, id, tool_length, form))
         return
     check_target(out, program)
     from ncscope.execution import Options
     from ncscope.views.pictures.files import path_picture
 
     tolerance = read_sample(sample)
-    options = Options(clamp, read_levels(skip), max_blocks, sample=tolerance)
-    result, found, _ = run_program(program, machine, options)
+    options = Options(
+        clamp, read_levels(skip), max_blocks, sample=tolerance, external=read_settings(values)
+    )
+    result, found, _ = run_program(
+        program, machine, options, probe, folders or (), kinematics, manual
+    )
     found = [d for d in (*found, *result.diagnostics) if d.severity != "note"]
     show_diagnostics(found)
     if len(result) == 0:
@@ -129,6 +148,6 @@ def _chosen(machine: Machine, id: int | None, path: Path) -> int:
     if not ids:
         fail(f"{path} describes no kinematics to draw", code=1)
     if id is not None and id not in ids:
-        fail(f"--kinematics {id}: the lists have {', '.join(map(str, ids))}")
+        fail(f"--id {id}: the lists have {', '.join(map(str, ids))}")
     default = machine.settings.default_kinematic_id
     return id if id is not None else default if default in ids else ids[0]

@@ -7,8 +7,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ncscope.cli.inputs import read_machine, run_program
-from ncscope.cli.options import ClampOption, MachineOption, SkipOption, read_levels
+from ncscope.cli.inputs import read_inputs
+from ncscope.cli.options import (
+    BlocksOption,
+    ClampOption,
+    FoldersOption,
+    KinematicsOption,
+    MachineOption,
+    ManualOption,
+    ProbeOption,
+    SetOption,
+    SkipOption,
+    read_levels,
+    read_settings,
+)
 from ncscope.cli.plot import (
     SAMPLE,
     SampleOption,
@@ -29,14 +41,20 @@ def report_command(
     program: Annotated[Path, typer.Argument(help="NC program.")],
     out: Annotated[Path, typer.Option("--out", "-o", help="File: .html.")],
     machine: MachineOption = None,
+    kinematics: KinematicsOption = None,
     explain: Annotated[
-        str, typer.Option("--explain", help="Blocks to explain: N40,N60 or lines: 12,15.")
+        str,
+        typer.Option(
+            "--explain", metavar="N40,N60", help="Blocks to explain: N40,N60 or lines: 12,15."
+        ),
     ] = "",
     clamp: ClampOption = None,
     skip: SkipOption = "",
-    max_blocks: Annotated[
-        int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
-    ] = 0,
+    probe: ProbeOption = None,
+    manual: ManualOption = None,
+    values: SetOption = None,
+    folders: FoldersOption = None,
+    max_blocks: BlocksOption = 0,
     sample: SampleOption = SAMPLE,
 ) -> None:
     """Write a run as one document that opens without a network."""
@@ -49,20 +67,22 @@ def report_command(
     from ncscope.views.report import Subject, report_page
 
     tolerance = read_sample(sample)
-    options = Options(clamp, read_levels(skip), max_blocks, sample=tolerance)
-    result, found, source = run_program(program, machine, options)
-    lists, _ = read_machine(machine)
+    options = Options(
+        clamp, read_levels(skip), max_blocks, sample=tolerance, external=read_settings(values)
+    )
+    inputs = read_inputs(program, machine, options, probe, folders or (), kinematics, manual)
+    result = inputs.run()
     subject = Subject(
         program.name,
-        lists,
+        inputs.machine,
         result,
-        [d for d in found if d.severity != "note"],
+        [d for d in inputs.found if d.severity != "note"],
         _lists(machine),
         _in_words(clamp, skip),
-        [_explained(result, source, text) for text in wanted],
+        [_explained(result, inputs.program, text) for text in wanted],
     )
     write_picture(out, report_page(subject))
-    raise typer.Exit(0 if result.ok and not any(d.is_error for d in found) else 1)
+    raise typer.Exit(0 if result.ok and inputs.usable else 1)
 
 
 def _read_blocks(text: str) -> list[str]:

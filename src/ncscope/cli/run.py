@@ -11,6 +11,7 @@ import typer
 
 from ncscope.cli.inputs import read_inputs
 from ncscope.cli.options import (
+    BlocksOption,
     ClampOption,
     FoldersOption,
     KinematicsOption,
@@ -46,9 +47,7 @@ def run_command(
     manual: ManualOption = None,
     values: SetOption = None,
     folders: FoldersOption = None,
-    max_blocks: Annotated[
-        int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
-    ] = 0,
+    max_blocks: BlocksOption = 0,
     strict: Annotated[bool, typer.Option("--strict", help="A warning stops the run.")] = False,
     sample: Annotated[
         float | None,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from enum import StrEnum
 from typing import Annotated
 
@@ -12,15 +11,19 @@ import typer
 from ncscope.cli.inputs import run_program
 from ncscope.cli.options import (
     ClampOption,
+    FoldersOption,
     KinematicsOption,
     MachineOption,
     ManualOption,
     ProbeOption,
+    SetOption,
     SkipOption,
     read_levels,
     read_place,
+    read_settings,
 )
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
+from ncscope.cli.words import read_positions
 
 
 class WhereFormat(StrEnum):
@@ -47,6 +50,8 @@ def where_command(
     skip: SkipOption = "",
     probe: ProbeOption = None,
     manual: ManualOption = None,
+    values: SetOption = None,
+    folders: FoldersOption = None,
 ) -> None:
     """Where axis positions are in PCS, WCS and MCS under the state of a block."""
     from ncscope.execution import Options
@@ -55,9 +60,9 @@ def where_command(
 
     positions = read_positions([*axes, *(more or ())])
     path, line, number = read_place(at)
-    options = Options(clamp, read_levels(skip))
+    options = Options(clamp, read_levels(skip), external=read_settings(values))
     result, found, source = run_program(
-        path, machine, options, probe, kinematics=kinematics, manual=manual
+        path, machine, options, probe, folders or (), kinematics, manual
     )
     try:
         if number is not None:
@@ -77,20 +82,3 @@ def where_command(
     if place.assumed:
         names = " ".join(place.assumed)
         terminal.print(f"not given, as the block left it: {names}", markup=False)
-
-
-def read_positions(words: list[str]) -> dict[str, float]:
-    """`X=1.5` to name and value, mm or degrees; ends the process when a word is none."""
-    positions: dict[str, float] = {}
-    for word in words:
-        name, mark, text = word.partition("=")
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not name or not mark or not math.isfinite(value):
-            fail(f"--axes {word}: write an axis and its position, for example X=12.5")
-        if name in positions:
-            fail(f"--axes: axis {name} is given twice")
-        positions[name] = value
-    return positions

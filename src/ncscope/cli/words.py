@@ -46,6 +46,15 @@ def read_words(words: Iterable[str], names: Sequence[str], what: str) -> dict[st
     return found
 
 
+def read_positions(words: Iterable[str]) -> dict[str, float]:
+    """`X=1.5` to axis and position, mm or degrees, before the axes are known; as `read_words`."""
+    given = list(words)
+    for word in given:
+        if word.find("=") < 1:
+            fail(f"--axes {word}: write an axis and its position, for example X=12.5")
+    return read_words(given, [word.partition("=")[0] for word in given], "--axes")
+
+
 def read_number(text: str, what: str) -> float:
     """A finite number; ends the process when the text is none."""
     try:

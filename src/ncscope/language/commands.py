@@ -1,8 +1,8 @@
 """The # commands: one table, in which every command of the dialect has its row.
 
-`kind` says what the channel does with a command: `modelled`, `later` (it moves positions and is
-refused until it is modelled), `no effect` (on positions; it is noted and skipped) or `refused`.
-Source: reference 10.1 and 10.2, and the list of all commands.
+`kind` says what the channel does with a command: `modelled`, `no effect` (on positions; it is
+noted and skipped) or `refused` (it may move positions; the program stops there with N2001).
+Source: TF5200 programming manual, its pages of # commands and its list of all commands.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("INIT MACRO TAB", "modelled", "Deletes all macros."),
     Command("CS MODE ON", "modelled", "Sets how coordinate systems are understood."),
     Command("CS MODE OFF", "modelled", "Sets how coordinate systems are understood."),
-    Command("CS MODE", "later", "Sets how coordinate systems are understood."),
+    Command("CS MODE", "refused", "Sets how coordinate systems are understood."),
     Command("CS ADD", "modelled", "Adds a coordinate system to the stack."),
     Command("CS SELECT", "modelled", "Makes the stack effective up to a name."),
     Command("CS SET", "modelled", "Changes a coordinate system of the stack."),

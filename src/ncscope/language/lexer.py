@@ -2,7 +2,7 @@
 
 Enters a text and the offset where a line begins. Leaves tokens that cover every character of that
 line, and `Line`, the code that the parser reads. Knows nothing of words or commands.
-Source: reference 1.1 (comments) and 1.2 (continuation).
+Source: TF5200 programming manual, comments and continuation of blocks.
 """
 
 from __future__ import annotations

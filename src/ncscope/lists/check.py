@@ -43,5 +43,5 @@ def _without_effect(loaded: Loaded) -> Iterator[Diagnostic]:
         if key in said or reading.row.status != "-":
             continue
         said.add(key)
-        message = f"{reading.entry.key} ({reading.row.id}) is read and has no effect yet"
+        message = f"{reading.entry.key} ({reading.row.id}) is read and has no effect"
         yield diagnostic("N3003", reading.entry.key_span, message)

@@ -64,7 +64,7 @@ def join(first: Move, second: Move, corner: Corner, chain: Coordinates) -> tuple
         what = "a chamfer or rounding stands between motions with G00, G01, G02 or G03 only"
         raise CornerError("N2032", what)
     if first.way is not None or second.way is not None:
-        what = "a chamfer or rounding at a turn over the end of a modulo axis is not supported yet"
+        what = "a chamfer or rounding at a turn over the end of a modulo axis is not supported"
         raise CornerError("N2001", what)
     if corner.rounding:
         found = _rounding(first, second, corner, chain)
@@ -160,7 +160,7 @@ def _rounding(
     i, j, third = corner.plane
     for move in (first, second):
         if third < len(move.program) and move.program[third] != move.start[third]:
-            what = "a rounding between motions that leave the plane is not supported yet"
+            what = "a rounding between motions that leave the plane is not supported"
             raise CornerError("N2001", what)
     factors = chain.contour.factors(len(first.program))
     if factors[i] != factors[j]:
@@ -223,7 +223,7 @@ class _Side:
                 raise CornerError("N2033", "one of the motions does not move in the plane")
             return cls(corner, (way[0] / length, way[1] / length), is_first, length, None, 0.0)
         if arc.axes != (i, j):
-            raise CornerError("N2001", "a rounding at an arc of another plane is not supported yet")
+            raise CornerError("N2001", "a rounding at an arc of another plane is not supported")
         radius = arc.end_radius if is_first else arc.start_radius
         angle = arc.start_rad + (arc.sweep_rad if is_first else 0.0)
         sense = math.copysign(1.0, arc.sweep_rad)

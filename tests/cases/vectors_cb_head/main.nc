@@ -1,4 +1,4 @@
-; vectors seed_10_1_CB_head of tests/data/kinematics.json
+; vectors fct_c27_10_1_CB_head of tests/data/kinematics.json
 N10 V.G.WZ_AKT.L = 0.0
 N20 #KIN ID [91]
 N30 #TRAFO ON

@@ -49,7 +49,7 @@ def refuse_exchange(draft: Draft, command: tree.HashCommand) -> None:
         what = f"axes cannot be exchanged while a coordinate system is active: {above[-1].name}"
         draft.fail("20684", command.span, what, "switch it off first (#CS OFF ALL)")
     if draft.state.suspended is not None:
-        what = f"#{command.name} while #MCS is active is not supported yet"
+        what = f"#{command.name} while #MCS is active is not supported"
         draft.fail("N2001", command.span, what)
 
 

@@ -88,7 +88,7 @@ def suppress(draft: Draft, command: tree.HashCommand) -> None:
         what = "#SUPPRESS OFFSETS needs an axis and its position"
         draft.fail("N1005", command.span, what, "write for example #SUPPRESS OFFSETS X50")
     if draft.modes.motion in CIRCULAR:
-        draft.later(command.span, "an arc (G02, G03) with #SUPPRESS OFFSETS")
+        draft.refuse(command.span, "an arc (G02, G03) with #SUPPRESS OFFSETS")
     chain = draft.state.coordinates.suppressed(_kinds(draft, command))
     program = chain.to_program(draft.state.position.axes, near=draft.state.position.program)
     for axis, (value, span) in words.items():

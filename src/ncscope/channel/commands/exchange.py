@@ -98,7 +98,7 @@ def _taken(
     draft: Draft, group: tree.Group, index: int, axis: Axis, switches: frozenset[str]
 ) -> None:
     if "IDX" in switches:
-        what = "the switch IDX for an index that is taken is not supported yet"
+        what = "the switch IDX for an index that is taken is not supported"
         draft.fail("N2001", group.span, what, "give the axis an index that is free")
     what = f"index {index} has the axis {axis.name} already"
     draft.fail("20697", group.span, what, f"release it first: #PUT AX [{axis.name}]")
@@ -110,7 +110,7 @@ def _check_name(draft: Draft, group: tree.Group, axis: Axis, switches: frozenset
     if other is None or other.number == axis.number:
         return
     if "NAM" in switches:
-        what = "the switch NAM for a name that is taken is not supported yet"
+        what = "the switch NAM for a name that is taken is not supported"
         draft.fail("N2001", group.span, what, "give the axis a name that is free")
     what = f"the name {axis.name} belongs to axis number {other.number} in the channel"
     draft.fail("21256", group.span, what)

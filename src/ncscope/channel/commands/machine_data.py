@@ -105,7 +105,7 @@ def _entry(draft: Draft, item: tree.Item) -> tuple[str, str]:
 def _write(draft: Draft, item: tree.Item, index: int, key: str, text: str) -> None:
     name = draft.state.axis_names[index]
     if key in REFUSED:
-        draft.fail("N2001", item.span, f"#MACHINE DATA for {key} is not supported yet")
+        draft.fail("N2001", item.span, f"#MACHINE DATA for {key} is not supported")
     if key not in MODELLED:
         draft.warn("N2002", item.span, f"#MACHINE DATA {key} has no effect on positions")
         return

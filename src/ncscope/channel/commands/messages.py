@@ -72,7 +72,7 @@ def file_name(draft: Draft, command: tree.HashCommand) -> None:
         called = re.fullmatch(r"M6|G8[0-9]|G8[0-3][0-9]", item.key or "")
         if item.key != "MSG" and called is None:
             what = f"#FILE NAME [{item.key or ''}=..]"
-            draft.fail("N2001", item.span, f"{what} is not supported yet")
+            draft.fail("N2001", item.span, f"{what} is not supported")
         name = item.value.text if isinstance(item.value, tree.Name) else None
         if item.value is not None and name is None:
             name = str(evaluate_value(draft, item.value))

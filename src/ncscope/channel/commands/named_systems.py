@@ -153,7 +153,7 @@ def _wanted(draft: Draft, node: tree.Name | tree.Text) -> int:
 def refuse_intermediate(draft: Draft, node: tree.Name | tree.Text) -> NoReturn:
     """IMCS: the system between two kinematic steps."""
     if draft.state.kinematics.active[1]:
-        what = "IMCS, the system between two kinematic steps, is not supported yet"
+        what = "IMCS, the system between two kinematic steps, is not supported"
         draft.fail("N2001", node.span, what)
     what = "IMCS belongs to a kinematics of two steps, and none is active"
     draft.fail("21601", node.span, what)

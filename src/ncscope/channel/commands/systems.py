@@ -1,7 +1,7 @@
 """#CS, #ACS and #BCS DEF, ON, OFF: coordinate systems that stack.
 
 Each kind counts its own ids. A configured system (P-CHAN-00490) can be used by all three kinds.
-Source: #CS seed; TF5200 coordinate systems and offsets
+Source: definition of #CS; TF5200 coordinate systems and offsets
 """
 
 from __future__ import annotations
