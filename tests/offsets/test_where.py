@@ -113,3 +113,15 @@ def test_used_wrongly(tmp_path, monkeypatch, axes, at, code, said):
     Path("part.nc").write_text(FIVE_AXES)
     done = call("where", "--machine", MACHINES / "ca_head", "--axes", *axes, "--at", at)
     assert (done.exit_code, said in done.stderr) == (code, True), done.stderr
+
+
+def test_variables_and_subprograms_of_the_run(tmp_path, monkeypatch):
+    """The zero point is V.E.SHIFT + 2 (global.nc) = 7, so the axis at 10 is programmed 3."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "global.nc").write_text("G92 X[V.E.SHIFT + 2]\nM17\n")
+    (tmp_path / "part.nc").write_text("L global.nc\nG00 X0\nM30\n")
+    given = ("--set", "V.E.SHIFT=5", "--subprograms", "other", "--format", "json")
+    done = call("where", "--axes", "X=10", "--at", "part.nc:2", *given)
+    assert done.exit_code == 0, done.output
+    assert json.loads(done.stdout)["pcs"]["X"] == 3.0
