@@ -54,6 +54,7 @@ def _require(draft: Draft, axes: Iterable[int], span: Span, what: str) -> None:
 
 
 def turn_off(draft: Draft, span: Span) -> None:
+    """Ends the contour rotation; N2022 inside #MCS. Source: TF5200, #ROTATION OFF, G69."""
     suspended = draft.state.suspended
     if suspended is not None and suspended.coordinates.contour.turn is not None:
         what = "a contour rotation cannot be ended inside #MCS; that is not modelled"

@@ -27,14 +27,17 @@ def limit(side: int) -> Callable[[Draft, Reference], float]:
 
 
 def reference(draft: Draft, ref: Reference) -> float:
+    """Reference position of an axis in units of the program. Source: P-AXIS-00152."""
     return draft.shown(ref.axis, draft.state.axes[ref.axis].reference)
 
 
 def axis_mode(draft: Draft, ref: Reference) -> float:
+    """4 for a modulo axis, else 1."""
     return 1.0 if draft.state.axes[ref.axis].modulo_range is None else 4.0
 
 
 def modulo_value(draft: Draft, ref: Reference) -> float:
+    """Degrees of one turn of a modulo axis, 0 for any other."""
     limits = draft.state.axes[ref.axis].modulo_range
     return 0.0 if limits is None else limits[1] - limits[0]
 

@@ -11,6 +11,8 @@ from ncscope.channel.rows import Reference
 
 
 def measured(field: str) -> Callable[[Draft, Reference], float]:
+    """A value of the last measuring run in units of the program; 0 before the first."""
+
     def read(draft: Draft, ref: Reference) -> float:
         held = draft.state.measured.get(draft.state.axis_names[ref.axis])
         return draft.shown(ref.axis, getattr(held, field)) if held else 0.0
@@ -19,6 +21,7 @@ def measured(field: str) -> Callable[[Draft, Reference], float]:
 
 
 def was_measured(draft: Draft, ref: Reference) -> float:
+    """1 when the axis was measured, else 0."""
     return float(draft.state.axis_names[ref.axis] in draft.state.measured)
 
 

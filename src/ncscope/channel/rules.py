@@ -174,6 +174,7 @@ def _end(draft: Draft, words: Words) -> None:
 
 
 def reject_unused(draft: Draft, words: Words) -> None:
+    """N2003 for the first address that no rule has taken."""
     for letter, (_value, span) in words.addresses.items():
         draft.fail("N2003", span, f"word {letter} is not used by any command in this block")
 

@@ -56,6 +56,7 @@ def _write_kin(draft: Draft, ref: Reference, value: float) -> None:
 
 
 def group_index(draft: Draft, ref: Reference) -> int:
+    """Index of a zero offset group; 20906 when there is none of this number."""
     index = ref.numbers[0]
     if not 0 <= index < ZERO_GROUPS:
         draft.fail("20906", ref.span, f"zero offset groups are 0 to {ZERO_GROUPS - 1}, not {index}")
@@ -76,12 +77,14 @@ def _write_np(draft: Draft, ref: Reference, value: float) -> None:
 
 
 def store_group(draft: Draft, index: int, record: OffsetRecord) -> None:
+    """Puts a group into the zero offset table; what is active does not change."""
     table = draft.state.zero_offsets
     groups = {**table.groups, index: record}
     draft.state = replace(draft.state, zero_offsets=replace(table, groups=groups))
 
 
 def active_zero(draft: Draft) -> Offset:
+    """The active zero offset in mm and degrees; zeros when none is held."""
     n = len(draft.state.axes)
     held = offsets.held_offset(draft.state, "zero")
     name = offsets.zero_name(draft.state.zero_index)

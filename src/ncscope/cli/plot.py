@@ -119,6 +119,7 @@ def check_target(out: Path, program: Path) -> None:
 
 
 def write_picture(out: Path, data: bytes) -> None:
+    """Writes the file and names it; ends the process when it cannot be written."""
     try:
         out.write_bytes(data)
     except OSError as error:

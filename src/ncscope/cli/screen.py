@@ -23,6 +23,7 @@ SHOWN_EVERY = 1000
 
 
 def show_diagnostics(items: Iterable[Diagnostic]) -> None:
+    """Diagnostics with their place on standard error."""
     from ncscope.diagnostics import render
 
     colours = {"error": "red", "warning": "yellow", "note": "cyan"}
@@ -95,5 +96,6 @@ def announce_compiling() -> None:
 
 
 def fail(message: str, code: int = 2) -> NoReturn:
+    """Ends the process with a message on standard error."""
     typer.echo(f"ncscope: {message}", err=True)
     raise typer.Exit(code)

@@ -24,6 +24,7 @@ def blame(
 def lint(
     item: KinematicSet, field: str, message: str, hint: str = "", *, note: bool = False
 ) -> Diagnostic:
+    """N3010 at the line that wrote the field; a warning, or a note."""
     span, _ = blame(item, (INDEX_OF_FIELD[field],))
     severity = Severity.NOTE if note else None
     return diagnostic("N3010", span, message, hint, severity=severity)
@@ -39,4 +40,5 @@ def axis_count(parameters: KinematicParameters) -> int:
 
 
 def direction_of(parameters: KinematicParameters, axis: int) -> list[float]:
+    """Direction (3,) of an axis as the list writes it, not normalised."""
     return [parameters.get(f"axis[{axis}].orientation[{k}]") for k in range(3)]
