@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import io
 import json
+import signal
 import subprocess
 import sys
 import time
@@ -96,7 +97,10 @@ def test_a_run_that_is_broken_off_leaves_a_valid_file(tmp_path, shape):
     path, out = tmp_path / "endless.nc", tmp_path / f"out.{shape}"
     path.write_text("$WHILE 1\nG91 X1\nX-1\nG90\n$ENDWHILE\nM30\n")
     child = subprocess.Popen(
-        [sys.executable, *CODE, "run", str(path), "--out", str(out)], stderr=subprocess.PIPE
+        [sys.executable, *CODE, "run", str(path), "--out", str(out)],
+        stderr=subprocess.PIPE,
+        # A shell that runs the tests in the background makes all of them deaf to Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     while not out.exists():
         time.sleep(0.1)
