@@ -267,7 +267,7 @@ CATALOGUE: dict[str, Entry] = {
     "N2001": Entry("error", "The command moves positions and is not supported."),
     "N2002": Entry("note", "The command has no effect on positions."),
     "N2003": Entry("error", "A word is not used by any command in this block."),
-    "N2004": Entry("error", "G92 needs at least one axis."),
+    "N2004": Entry("error", "The G function needs at least one axis."),
     "N2005": Entry("error", "#PSET under a contour rotation is not modelled."),
     "N2006": Entry("note", "An option of the command is ignored."),
     "N2020": Entry("error", "The scale factors are not allowed, or are changed while they act."),

@@ -73,10 +73,11 @@ def _increments(
     draft.state = replace(draft.state, manual=given.taken())
     names = {draft.state.axis_names[axis]: axis for axis in axes}
     for name, cell in row.cells.items():
-        if name not in names:
+        if name not in names and row.values[name] != 0.0:
             what = f"{cell.place} has an increment for axis {name}, which is not in manual mode"
             draft.fail("N2043", span, what, notes=(("the increment", cell),))
-    return {names[name]: value for name, value in row.values.items()}, row.span.place
+    increments = {names[name]: value for name, value in row.values.items() if name in names}
+    return increments, row.span.place
 
 
 def _check_chain(draft: Draft, number: int, span: Span) -> None:

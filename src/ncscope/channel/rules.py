@@ -94,8 +94,14 @@ def _mask_group(draft: Draft, words: Words) -> None:
     table = draft.state.zero_offsets
     record = table.groups.get(index, offsets.OffsetRecord())
     inactive = set(record.inactive)
-    for axis, (value, _span) in words.axes.items():
-        (inactive.add if abs(value) >= 0.5 else inactive.discard)(axis)
+    if not words.axes:
+        hint = "write for example G160=2 X1 Y0: 1 leaves the axis out, 0 takes it in"
+        draft.fail("N2004", words.gfunctions[160].span, "G160 needs at least one axis", hint)
+    for axis, (value, span) in words.axes.items():
+        if value not in (0.0, 1.0):
+            what = f"G160 takes 0 (axis is included) or 1 (left out), not {value:g}"
+            draft.fail("N1005", span, what)
+        (inactive.add if value else inactive.discard)(axis)
     groups = {**table.groups, index: replace(record, inactive=frozenset(inactive))}
     draft.state = replace(draft.state, zero_offsets=replace(table, groups=groups))
     words.axes.clear()
