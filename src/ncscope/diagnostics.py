@@ -27,6 +27,8 @@ class Severity(StrEnum):
 
 _PIECE = 2048
 """Characters between two known line numbers of a source."""
+AHEAD = 1024
+"""Pieces whose lines are counted in one go: not far ahead, for a mapped file comes into memory."""
 
 
 @dataclass(frozen=True)
@@ -123,14 +125,14 @@ class _LineIndex:
     def before(self, piece: int) -> int:
         """Line feeds before the piece, which begins at `piece * _PIECE`."""
         if piece >= len(self.counts):
-            self._count(max(piece, 2 * len(self.counts)))
+            self._count(max(piece, len(self.counts) + AHEAD))
         return int(self.counts[piece])
 
     def piece_of_line(self, line: int) -> int:
         """The last piece that begins before the line does, or the first."""
         pieces = len(self.data) // _PIECE
         while self.counts[-1] < line - 1 and len(self.counts) <= pieces:
-            self._count(2 * len(self.counts))
+            self._count(len(self.counts) + AHEAD)
         return max(0, int(np.searchsorted(self.counts, line - 1, side="left")) - 1)
 
     def _count(self, last: int) -> None:

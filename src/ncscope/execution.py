@@ -283,6 +283,7 @@ class _Loop:
             self.count += len(stretch)
             reader.skip_to(int(rows.stops[len(stretch) - 1]))
             self.report(reader.at)
+            self.source.forget(reader.at)
 
     def report(self, offset: int) -> None:
         """The offset in the main program that was reached."""

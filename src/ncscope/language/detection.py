@@ -33,6 +33,7 @@ def needs_layout(source: Source) -> bool:
         if any(not _is_hidden(text, at, start == 0) for at in _marks(text)):
             return True
         start = stop
+        source.forget(start)
     return False
 
 
