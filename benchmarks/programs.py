@@ -31,7 +31,8 @@ def write(kind: str, blocks: int, path: Path) -> None:
 def _line(kind: str, i: int) -> str:
     turn = i * 1e-4
     x, y, z = 100 * math.cos(turn), 100 * math.sin(turn), (0.001 * i) % 50
-    rotary = f" A{20 * math.sin(turn / 3):.3f} C{90 * math.cos(turn / 7):.3f}"
-    if kind == "three_axis":
-        rotary = ""
+    tilt = 20 * math.sin(turn / 3)
+    if kind == "complete":
+        tilt = 25 + 0.75 * tilt  # a machine with skew axes cannot reach the pole
+    rotary = f" A{tilt:.3f} C{90 * math.cos(turn / 7):.3f}" if kind != "three_axis" else ""
     return f"N{(10 * i + 10) % 10**8} G1 X{x:.3f} Y{y:.3f} Z{z:.3f}{rotary} F2000\n"

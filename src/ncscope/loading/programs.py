@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ncscope.diagnostics import Source
 from ncscope.execution import Program
 
-MAPPED_FROM = 256 * 1024 * 1024
+MAPPED_FROM = 32 * 1024 * 1024
 """Bytes from which a file is mapped."""
 
 
