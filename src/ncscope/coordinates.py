@@ -160,7 +160,8 @@ class Coordinates:
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Axis positions (..., n) for a tool tip (..., n) in the machine system."""
         position = np.asarray(mcs, dtype=float) - self.tool_vector
-        return self.modulo.wrap(self._solved(position, near) + self._jogged)
+        axes = self._solved(position, near)
+        return self.modulo.wrap(axes if self.manual is None else axes + self._jogged)
 
     def mcs_from_axes(self, axes: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Tool tip (..., n) in the machine system for axis positions (..., n).
@@ -380,8 +381,12 @@ def _transformed(points: Array, rotation: Array, shift: Array) -> Array:
     n = points.shape[-1]
     if n == 0:  # all axes have left the channel
         return points
-    rows = [sum(rotation[i, j] * points[..., j] for j in range(n)) + shift[i] for i in range(n)]
-    return np.stack(rows, axis=-1)
+    if (rotation == np.eye(n)).all():
+        return points + shift
+    result = np.empty_like(points)
+    for i in range(n):
+        result[..., i] = sum(rotation[i, j] * points[..., j] for j in range(n)) + shift[i]
+    return result
 
 
 def _adder(values: ArrayLike):

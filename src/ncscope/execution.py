@@ -270,8 +270,9 @@ class _Loop:
         if self.scanner is None:
             names = (a.name if a.modulo_range is None else "" for a in self.state.axes)
             self.scanner = Scanner(self.source.data, tuple(names))
+        line = self.source.position(reader.at)[0]
         while True:
-            rows = self.scanner.scan(reader.at, self.source.position(reader.at)[0])
+            rows = self.scanner.scan(reader.at, line)
             left = self.options.max_blocks - self.count if self.options.max_blocks else len(rows)
             if min(len(rows), left) == 0:
                 return
@@ -282,6 +283,7 @@ class _Loop:
             self.recorder.extend(stretch, start)
             self.count += len(stretch)
             reader.skip_to(int(rows.stops[len(stretch) - 1]))
+            line = int(stretch.line[-1]) + 1
             self.report(reader.at)
             self.source.forget(reader.at)
 

@@ -87,8 +87,8 @@ def _axes(state: State, program: Array) -> tuple[Array, int]:
     except KinematicsError as error:
         n = min(error.rows)
         axes = state.coordinates.to_axes(program[:n], near=near) if n else program[:0]
-    wild = np.flatnonzero(~np.isfinite(axes).all(axis=1))
-    return axes, int(wild[0]) if len(wild) else n
+    finite = np.isfinite(axes)
+    return axes, n if finite.all() else int(np.argmin(finite.all(axis=1)))
 
 
 def _state_after(state: State, stretch: Stretch, absolute: bool) -> State:

@@ -51,6 +51,7 @@ class Scanner:
 
     def __init__(self, data: NDArray[np.uint8], axis_names: tuple[str, ...]) -> None:
         self.data = data
+        self._size = _whole_lines(data)
         self.columns = np.full(256, _UNKNOWN, dtype=np.int64)
         for index, name in enumerate(axis_names):
             if len(name) == 1 and name in "ABCQUVWXYZ":
@@ -66,8 +67,8 @@ class Scanner:
     def scan(self, offset: int, line: int) -> PlainRows:
         """The plain blocks from `offset`, which begins line `line`, up to CHUNK rows."""
         count = _scan(
-            self.data, offset, line, self.columns, _POWERS, self._line, self._block, self._codes,
-            self._feed, self._values, self._stops,
+            self.data, self._size, offset, line, self.columns, _POWERS, self._line, self._block,
+            self._codes, self._feed, self._values, self._stops,
         )  # fmt: skip
         return PlainRows(
             self._line[:count],
@@ -81,9 +82,19 @@ class Scanner:
 
 
 @compiled
-def _scan(data, at, line, columns, powers, lines, blocks, codes, feeds, values, stops):
-    """Rows read; a blank line between plain blocks belongs to the run."""
-    count, size = 0, len(data)
+def _whole_lines(data):
+    """Offset behind the last line feed: a line without one is left to the parser."""
+    size = len(data)
+    while size > 0 and data[size - 1] != 10:
+        size -= 1
+    return size
+
+
+@compiled
+def _scan(data, size, at, line, columns, powers, lines, blocks, codes, feeds, values, stops):
+    """Rows read; a blank line between plain blocks belongs to the run. Each line before `size`
+    ends with a line feed, so that no loop below it needs another end."""
+    count = 0
     while at < size and count < len(lines):
         stop = _read_line(data, at, columns, powers, blocks, codes, feeds, values, count)
         if stop < 0:
@@ -103,20 +114,23 @@ def _scan(data, at, line, columns, powers, lines, blocks, codes, feeds, values, 
 @compiled
 def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
     """Offset behind the line when it is plain, 0 for a blank line, -1 for any other."""
-    size, start = len(data), at
+    longest = at + LONGEST_LINE - 40
     blocks[row], codes[row, 0], codes[row, 1] = -1, -1, -1
     feeds[row] = np.nan
-    values[row, :] = np.nan
+    for k in range(values.shape[1]):
+        values[row, k] = np.nan
     words, axes = 0, 0
-    while at < size and data[at] != 10:
+    while True:
         char = data[at]
-        if char == 32 or char == 9 or (char == 13 and at + 1 < size and data[at + 1] == 10):
+        if char == 32 or char == 9 or (char == 13 and data[at + 1] == 10):
             at += 1
             continue
-        if at - start > LONGEST_LINE - 40:
+        if char == 10:
+            break
+        if at > longest:
             return -1
-        mantissa, digits, decimals, negative, stop = _number(data, at + 1)
-        if stop < 0:
+        mantissa, digits, decimals, negative, at = _number(data, at + 1)
+        if at < 0:
             return -1
         whole = decimals < 0 and not negative
         if char == 78:  # N
@@ -139,12 +153,9 @@ def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
             values[row, column] = -value if negative else value
             axes += 1
         words += 1
-        at = stop
     if words == 0:
-        return 0 if at < size else -1
-    if axes == 0:
-        return -1
-    return at + 1 if at < size else at
+        return 0
+    return at + 1 if axes else -1
 
 
 @compiled
@@ -168,28 +179,25 @@ def _number(data, at):
     """Digits at `at` after blanks and one sign: mantissa, digit count, decimals (-1 without a
     point), sign, and the offset behind; offset -1 when this is no literal or too long to be exact.
     """
-    size = len(data)
-    while at < size and (data[at] == 32 or data[at] == 9):
+    while data[at] == 32 or data[at] == 9:
         at += 1
-    negative = at < size and data[at] == 45
-    if at < size and (data[at] == 45 or data[at] == 43):
+    negative = data[at] == 45
+    if negative or data[at] == 43:
         at += 1
-    mantissa, digits, decimals = np.int64(0), 0, -1
-    while at < size:
-        char = data[at]
-        if 48 <= char <= 57:
-            mantissa = mantissa * 10 + np.int64(char - 48)
-            digits += 1
-            if decimals >= 0:
-                decimals += 1
-            if digits > _DIGITS:
-                return mantissa, digits, decimals, negative, -1
-        elif char == 46 and decimals < 0:
-            decimals = 0
-        else:
-            break
+    first, mantissa = at, np.int64(0)
+    while 48 <= data[at] <= 57:
+        mantissa = mantissa * 10 + np.int64(data[at] - 48)
         at += 1
-    if digits == 0 or (at < size and not _ends_number(data[at])):
+    digits, decimals = at - first, -1
+    if data[at] == 46:
+        at += 1
+        first = at
+        while 48 <= data[at] <= 57:
+            mantissa = mantissa * 10 + np.int64(data[at] - 48)
+            at += 1
+        decimals = at - first
+        digits += decimals
+    if digits == 0 or digits > _DIGITS or not _ends_number(data[at]):
         return mantissa, digits, decimals, negative, -1
     return mantissa, digits, decimals, negative, at
 
