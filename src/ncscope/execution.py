@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ncscope.channel.block import Step, execute
 from ncscope.channel.draft import Message
 from ncscope.channel.flow import Walker, open_warnings, too_many
@@ -75,7 +77,8 @@ def run(
     source = program.source if isinstance(program, Program) else Source("program", program)
     loop = _Loop(machine, source, options, progress, sink)
     try:
-        _run_all(loop)
+        with np.errstate(over="ignore", invalid="ignore"):  # too large a value is 21883
+            _run_all(loop)
     except BaseException:  # broken off from outside: what was reached belongs to the sink
         loop.recorder.finish()
         raise

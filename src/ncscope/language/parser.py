@@ -105,6 +105,8 @@ class BlockReader:
         mark = next((m for m in _BYTE_ORDER_MARKS if source.part(0, 3).startswith(m)), "")
         if mark:
             pending, self.at = (_byte_order_mark(source),), len(mark)
+        elif _has_no_line_end(source):
+            pending = (_no_line_end(source),)
         while self.at < len(source):
             block, found, self.at = parse_block(source, self.at, declarations=declaring)
             if block is None:
@@ -311,6 +313,18 @@ def _byte_order_mark(source: Source) -> Diagnostic:
     hint = "save the file as plain ASCII, without a byte order mark"
     span = Span(source, 0, 1)
     return diagnostic("21798", span, "The file begins with a byte order mark.", hint)
+
+
+def _has_no_line_end(source: Source) -> bool:
+    """Whether lines end with CR alone; a last line may lack its end."""
+    if source.end_of_line(0) < len(source):
+        return False
+    return "\r" in source.part(0, len(source)).strip(BLANKS)
+
+
+def _no_line_end(source: Source) -> Diagnostic:
+    hint = "save the file with line ends CR LF or LF; in this one they are CR alone"
+    return diagnostic("20301", Span(source, 0, 1), "The file has no end of line.", hint)
 
 
 def _is_local(header: str) -> bool:
