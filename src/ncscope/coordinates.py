@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ncscope.contour import NO_CONTOUR, Contour
-from ncscope.frames import Array, Frame
+from ncscope.frames import Array, Frame, transformed
 from ncscope.kinematics.alignment import LengthCorrection
 from ncscope.kinematics.step import KinematicsError, KinematicStep, Pose
 from ncscope.levels import (
@@ -154,7 +154,7 @@ class Coordinates:
         n = min(3, self.axis_count)
         result[..., 3:] -= self._offset_total[3:]
         back = self._main(self.mcs_frame.inverse)
-        result[..., :n] = _transformed(result[..., :n], *back)
+        result[..., :n] = transformed(result[..., :n], *back)
         return self.shown(self._unmapped(self.contour.invert(result), near))
 
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
@@ -297,7 +297,7 @@ class Coordinates:
     def _affine(self, program: ArrayLike, frame: Frame, total: Array) -> Array:
         result = np.array(program, dtype=float)
         n = min(3, self.axis_count)
-        result[..., :n] = _transformed(result[..., :n], *self._main(frame))
+        result[..., :n] = transformed(result[..., :n], *self._main(frame))
         result[..., 3:] += total[3:]
         return result
 
@@ -374,19 +374,6 @@ def _main_axes(values: Array) -> Array:
     main = np.zeros(3)
     main[: min(3, len(values))] = values[:3]
     return main
-
-
-def _transformed(points: Array, rotation: Array, shift: Array) -> Array:
-    """rotation @ point + shift, summed in one order so that one row and a million agree."""
-    n = points.shape[-1]
-    if n == 0:  # all axes have left the channel
-        return points
-    if (rotation == np.eye(n)).all():
-        return points + shift
-    result = np.empty_like(points)
-    for i in range(n):
-        result[..., i] = sum(rotation[i, j] * points[..., j] for j in range(n)) + shift[i]
-    return result
 
 
 def _adder(values: ArrayLike):

@@ -129,3 +129,17 @@ def axes_in_plane(direction: ArrayLike, kind: str, plane: str) -> Array:
     if kind == "X":
         return np.column_stack([first, np.cross(z, first), z])
     return np.column_stack([np.cross(-first, z), -first, z])
+
+
+def transformed(points: Array, rotation: Array, shift: Array) -> Array:
+    """rotation @ point + shift for points (..., n), summed in one order so that one row and a
+    million agree to the last bit."""
+    n = points.shape[-1]
+    if n == 0:  # all axes have left the channel
+        return points
+    if (rotation == np.eye(n)).all():
+        return points + shift
+    result = np.empty_like(points)
+    for i in range(n):
+        result[..., i] = sum(rotation[i, j] * points[..., j] for j in range(n)) + shift[i]
+    return result
