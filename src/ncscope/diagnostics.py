@@ -7,6 +7,7 @@ Knows nothing of NC blocks or machines. The ids and their explanations are in `c
 from __future__ import annotations
 
 import mmap
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -112,14 +113,14 @@ class Source:
 
     @cached_property
     def _line_index(self) -> _LineIndex:
-        return _LineIndex(self.data)
+        return _LineIndex(self.data, self.forget)
 
 
 class _LineIndex:
     """How many line feeds stand before each piece of a text; counted as far as was asked for."""
 
-    def __init__(self, data: NDArray[np.uint8]) -> None:
-        self.data = data
+    def __init__(self, data: NDArray[np.uint8], forget: Callable[[int], None]) -> None:
+        self.data, self.forget = data, forget
         self.counts = np.zeros(1, dtype=np.int64)
 
     def before(self, piece: int) -> int:
@@ -144,6 +145,7 @@ class _LineIndex:
             rows = self.data[first * _PIECE : stop * _PIECE].reshape(-1, _PIECE)
             lines = np.count_nonzero(rows == 10, axis=1)
             counts[first + 1 : stop + 1] = counts[first] + np.cumsum(lines)
+            self.forget(stop * _PIECE)
         self.counts = counts
 
 
