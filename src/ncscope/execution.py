@@ -14,7 +14,7 @@ import numpy as np
 
 from ncscope.channel.block import Step, execute
 from ncscope.channel.draft import Message
-from ncscope.channel.flow import Walker, open_warnings, too_many
+from ncscope.channel.flow import Walker, too_many
 from ncscope.channel.given import GivenRows
 from ncscope.channel.loop_lane import LoopLane, Visited
 from ncscope.channel.start import start_state, switch_on, with_stack
@@ -141,7 +141,7 @@ def _walk(loop: _Loop) -> None:
     walker = Walker(loop.machine, table, loop.options.load, loop.options.skip)
     _drive(loop, walker)
     if not loop.log.stop:
-        loop.add(open_warnings(walker))
+        loop.add(walker.open_warnings())
 
 
 def _drive(loop: _Loop, walker: Walker) -> None:

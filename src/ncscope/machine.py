@@ -153,6 +153,9 @@ class ChannelSettings:
     cycle_changes_stay: bool = False  # P-CHAN-00210 cycle_changes_modal
     start_file: str = ""  # P-CHAN-00119 start_init_prog_file
     end_file: str = ""  # P-CHAN-00252 final_prog_file
+    macro_name_length: int = 30  # P-CHAN-00511 configuration.decoder.macro_symbol_len
+    macros: Mapping[str, str] = field(default_factory=dict)
+    """Texts of the macros that the list defines, by name (P-CHAN-00085, P-CHAN-00062)."""
     called_files: Mapping[str, str] = field(default_factory=dict)
     """Files that `M6`, `G80` .. `G89` and `G800` .. `G839` call (P-CHAN-00118, 00160.., 00187)."""
     search_paths: tuple[str, ...] = ()

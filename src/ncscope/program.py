@@ -28,7 +28,8 @@ class Options:
     bulk: whether plain blocks are taken many at a time; None leaves it to the length
     of the program. The result is the same.
     load: the text of a subprogram file that the program calls, None where there is none; without
-    it no file is found. external: values of the PLC's variables by name, `V.E.NAME`.
+    it no file is found. external: values of the PLC's variables by name, `V.E.NAME` or
+    `V.E.NAME[2]`; a tuple for a whole array.
     probe: the answers of the probe (`load_rows`), a row for each measuring run; without them it
     triggers at the target. manual: jog increments, a row for each G200 and G201; without them
     nobody jogs.
@@ -40,7 +41,7 @@ class Options:
     strict: bool = False
     bulk: bool | None = None
     load: Load | None = None
-    external: Mapping[str, float | str] = field(default_factory=dict)
+    external: Mapping[str, float | str | tuple[float | str, ...]] = field(default_factory=dict)
     sample: float | None = None
     probe: GivenRows | None = None
     manual: GivenRows | None = None

@@ -118,7 +118,7 @@ def test_absolute_path_outside_is_refused(folder):
 def test_structure_error_in_a_subprogram_file(folder):
     (folder / "bad.nc").write_text("X5\n$ENDIF\nM17\n")
     result = run_in(folder, "X1\nL bad.nc\nM30\n")
-    assert ids(result) == [("N1007", 2)] and result.diagnostics[0].file == "bad.nc"
+    assert ids(result) == [("20218", 2)] and result.diagnostics[0].file == "bad.nc"
     assert len(result) == 1
 
 

@@ -78,9 +78,20 @@ def test_cycle_axes_follow_the_plane():
     assert result.acs.tolist() == [[6, 7, 5]]
 
 
-@pytest.mark.parametrize("block", ["X@P1", "@P1=5", "@X5", "P1=@P1", "#RETAIN CYCLE CHANGES"])
-def test_cycle_words_outside_of_cycles(block):
-    assert failing(f"X1\n{block}\nM30\n") == [("21382", 2)]
+@pytest.mark.parametrize(
+    ("block", "id"),
+    [
+        ("X@P1", "21382"),
+        ("@P1=5", "21382"),
+        ("P1=@P1", "21382"),
+        ("#RETAIN CYCLE CHANGES", "21382"),
+        ("@X5", "21383"),
+        ("G02 X2 @I1", "21384"),
+        ("@S=100", "21385"),
+    ],
+)
+def test_cycle_words_outside_of_cycles(block, id):
+    assert failing(f"X1\n{block}\nM30\n") == [(id, 2)]
 
 
 def test_cycle_parameter_that_was_not_given():
@@ -151,10 +162,18 @@ def test_second_cycle_while_one_is_modal():
 
 
 @pytest.mark.parametrize(
-    "arguments", ["@P1=1", "NAME=DRILL @P1=1 @P1=2", "NAME=DRILL WRONG @P1=1", "NAME=DRILL X=3"]
+    ("arguments", "id"),
+    [
+        ("@P1=1", "N1005"),
+        ("NAME=DRILL WRONG @P1=1", "N1005"),
+        ("NAME=DRILL X=3", "N1005"),
+        ("NAME=DRILL @P1=1 @P1=2", "21379"),
+        ("NAME=DRILL NAME=DRILL @P1=1", "21379"),
+        ("NAME=DRILL MODAL MODAL_BLOCK", "21379"),
+    ],
 )
-def test_cycle_written_wrongly(arguments):
-    assert [i for i, _ in failing(f"LL CYCLE [{arguments}]\nM30\n" + DRILL)] == ["N1005"]
+def test_cycle_written_wrongly(arguments, id):
+    assert [i for i, _ in failing(f"LL CYCLE [{arguments}]\nM30\n" + DRILL)] == [id]
 
 
 def test_cycle_parameter_number():
@@ -285,7 +304,7 @@ def test_macro_names_a_subprogram_and_holds_a_call():
     ("text", "id"),
     [
         ('"A"\nM30\n', "20619"),
-        ('"A" = "\\"A\\""\n"A"\nM30\n', "20386"),
+        ('"A" = "\\"A\\""\n"A"\nM30\n', "20734"),
         ('"A" = "$IF 1"\n"A"\nM30\n', "20644"),
         ('"A" = "N10 X1"\n"A"\nM30\n', "20644"),
         ('"A" = "X["\n"A"\nM30\n', "20392"),

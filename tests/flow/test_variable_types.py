@@ -38,12 +38,12 @@ def test_declared_variable(declaration, block, x):
 @pytest.mark.parametrize(
     ("declaration", "block", "id"),
     [
-        ("V.P.A : SGN08", "V.P.A=128", "21883"),
-        ("V.P.A : UNS16", "V.P.A=-1", "21883"),
-        ("V.P.A : UNS08 = 256", "", "21883"),
+        ("V.P.A : SGN08", "V.P.A=128", "20847"),
+        ("V.P.A : UNS16", "V.P.A=-1", "20847"),
+        ("V.P.A : UNS08 = 256", "", "20847"),
         ("V.P.A : SGN32", 'V.P.A="x"', "20392"),
         ("V.P.A : STRING[3]", "V.P.A=5", "20392"),
-        ("V.P.A : STRING[3]", 'V.P.A="abcd"', "N1008"),
+        ("V.P.A : STRING[3]", 'V.P.A="abcd"', "21462"),
         ("V.P.A : STRING[127]", "", "20906"),
         ("V.P.A[1][1][1][1][1]", "", "20974"),
         ("V.P.A[0]", "", "20906"),
@@ -110,7 +110,7 @@ def test_declared_external_variables_start_empty():
     [
         ("V.E.STATE=1", "20100"),
         ("X=V.E.ORDER", "20097"),
-        ("V.E.COUNT=40000", "21883"),
+        ("V.E.COUNT=40000", "20847"),
         ("X=V.E.NOBODY", "20932"),
         ("V.E.NOBODY=1", "20932"),
         ("#DELETE V.E.COUNT", "20908"),
@@ -158,6 +158,91 @@ def test_values_from_the_command_line(tmp_path):
     for wrong in ("LENGTH=1", "V.E.LENGTH", "V.E.A[3]=1"):
         result = CliRunner().invoke(app, ["run", str(program), "--set", wrong])
         assert result.exit_code == 2 and "--set" in result.output
+
+
+def set_values(tmp_path, program, *values, machine=True):
+    """Exit code, axis positions of the last move and the text of `run` with values of --set."""
+    (tmp_path / "main.nc").write_text(program + "\nM30\n")
+    (tmp_path / "ext_var1.lis").write_text(
+        "var[0].name COUNT\nvar[0].type SGN16\nvar[1].name TABLE\nvar[1].type REAL64\n"
+        "var[1].array_elements 4\nvar[2].name PART\nvar[2].type STRING\nvar[2].size 11\n"
+        "var[3].name NAMES\nvar[3].type STRING\nvar[3].array_elements 2\n"
+        "var[4].name READY\nvar[4].type BOOLEAN\nEnde\n"
+    )
+    arguments = [str(tmp_path / "main.nc"), "--format", "jsonl"]
+    arguments += ["--machine", str(tmp_path)] if machine else []
+    for value in values:
+        arguments += ["--set", value]
+    result = CliRunner().invoke(app, ["run", *arguments])
+    moves = [json.loads(line) for line in result.stdout.splitlines() if '"move"' in line]
+    return result.exit_code, list(moves[-1]["acs"].values()) if moves else None, result.output
+
+
+@pytest.mark.parametrize(
+    ("program", "values", "xyz"),
+    [
+        ("X=V.E.TABLE[0] Y=V.E.TABLE[3]", ["V.E.TABLE=[1, 2.5,3,4]"], [1, 4, 0]),
+        ("X=V.E.TABLE[1] Y=V.E.TABLE[2]", ["V.E.TABLE=[1,2]", "V.E.TABLE[2]=7"], [2, 7, 0]),
+        ("X=V.E.COUNT", ["V.E.COUNT=2.6"], [3, 0, 0]),
+        ("X=V.E.READY", ["V.E.READY=true"], [1, 0, 0]),
+        ("X=V.E.READY", ["V.E.READY=7"], [1, 0, 0]),
+        ("XLEN[V.E.PART]", ["V.E.PART=007"], [3, 0, 0]),
+        ("XLEN[V.E.PART]", ['V.E.PART="a b"'], [3, 0, 0]),
+        ("XLEN[V.E.PART]", ["V.E.PART=[1,2]"], [5, 0, 0]),
+        ("XLEN[V.E.NAMES[0]] YLEN[V.E.NAMES[1]]", ['V.E.NAMES=["a,b",5]'], [3, 1, 0]),
+    ],
+)
+def test_set_gives_values_of_the_declared_type(tmp_path, program, values, xyz):
+    code, position, _ = set_values(tmp_path, program, *values)
+    assert (code, position) == (0, xyz)
+
+
+def test_set_declares_where_no_list_does(tmp_path):
+    program = "X=V.E.A[1] YLEN[V.E.B[0]] Z=SIZEOF[V.E.A]"
+    values = ("V.E.A=[1,2,3]", 'V.E.B=["abcd"]')
+    assert set_values(tmp_path, program, *values, machine=False)[:2] == (0, [2, 4, 3])
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        ("V.E.COUNT=abc", "SGN16"),
+        ("V.E.COUNT=40000", "-32768 to 32767"),
+        ("V.E.COUNT=[1,2]", "no array"),
+        ("V.E.TABLE=5", "V.E.TABLE[0]=.."),
+        ("V.E.TABLE=[1,2,3,4,5]", "0 to 3"),
+        ("V.E.TABLE[4]=1", "0 to 3"),
+        ("V.E.TABLE[1]=[1,2]", "one value"),
+        ("V.E.TABLE=[1,,2]", "commas"),
+        ("V.E.TABLE=[]", "commas"),
+        ("V.E.PART=twelve_chars", "10 characters"),
+        ("V.E.COUTN=5", "V.E.COUNT was probably meant"),
+        ("V.E.count=5", "V.E.COUNT was probably meant"),
+    ],
+)
+def test_set_that_does_not_fit_says_what_would(tmp_path, value, said):
+    code, position, output = set_values(tmp_path, "X1", value)
+    assert code == 2 and position is None and "Traceback" not in output
+    assert said in " ".join(output.split())
+
+
+@pytest.mark.parametrize("value", ["V.E.A[0]=5", 'V.E.A=[1,"x"]', "V.E.A[0=5"])
+def test_set_without_a_list_that_cannot_declare(tmp_path, value):
+    assert set_values(tmp_path, "X1", value, machine=False)[0] == 2
+
+
+def test_label_of_a_jump_from_an_external_variable(tmp_path):
+    program = "$GOTO V.E.PART\nX1\n[AB] X2\n$GOTO [END]\nN40: X3\n[END] Y1"
+    for label, x in (("AB", 2), ("[ab]", 2), ("N40", 3)):
+        assert set_values(tmp_path, program, f"V.E.PART={label}")[:2] == (0, [x, 1, 0])
+    assert set_values(tmp_path, program, "V.E.PART=NONE")[0] == 1
+
+
+def test_exist_does_not_read(tmp_path):
+    """A variable that a program may only write exists as well."""
+    assert run("X=EXIST[V.E.ORDER] Y=EXIST[V.E.NAMES[1]] Z=EXIST[V.E.NAMES[2]]").acs[
+        0
+    ].tolist() == [1, 1, 0]
 
 
 def test_text_does_not_grow_without_end():

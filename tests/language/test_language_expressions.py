@@ -101,7 +101,7 @@ def test_worked_cases(text, expected):
         ("ASIN[2]", "N1006"),
         ("1 - V.P.TEXT", "20392"),
         ('1 * "NONE"', "20619"),
-        ('1 * "LOOP"', "20386"),
+        ('1 * "LOOP"', "20734"),
         ('1 * "BAD"', "20392"),
     ],
 )

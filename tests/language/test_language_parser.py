@@ -87,8 +87,8 @@ def test_g_and_m_words():
 
 def test_number_label_and_skip():
     first = block("/10 N20: X1")
-    assert (first.skip, first.number.value, first.label) == (10, 20, "N20")
-    assert block("/ [Start] X1").label == "START"
+    assert (first.skip, first.number.value, first.labels) == (10, 20, ("N20",))
+    assert block("/ [Start] X1").labels == ("[START]",)
     assert block("/5 N100 G00 X150").skip == 5
 
 

@@ -157,7 +157,8 @@ def _collect(draft: Draft, collected: Words, words: tuple[tree.Word, ...], depth
             case tree.MacroDefinition():
                 macros.define(draft, word)
             case tree.Macro():
-                _collect(draft, collected, macros.words(draft, word, depth), depth + 1)
+                with macros.used(word):
+                    _collect(draft, collected, macros.words(draft, word, depth), depth + 1)
 
 
 def _collect_g(draft: Draft, collected: Words, word: tree.GWord) -> None:

@@ -62,6 +62,7 @@ def _cycle(draft: Draft, call: tree.Call) -> None:
     if running.modal is not None and not running.in_modal:
         hint = "end it first with #DISABLE MODAL CYCLE"
         draft.fail("21381", call.span, "another modal cycle is active", hint)
+    _refuse_twice(draft, call, "21379")
     modal = ""
     parameters: dict[int, float | str] = {}
     for item in call.arguments[0].items:
@@ -92,8 +93,6 @@ def _parameter(draft: Draft, item: tree.Item, parameters: dict[int, float | str]
     if not 1 <= number <= MOST_PARAMETERS:
         what = f"@P{number} does not exist; cycles have @P1 to @P{MOST_PARAMETERS}"
         draft.fail("20400", item.span, what)
-    if number in parameters:
-        draft.fail("N1005", item.span, f"@P{number} is given twice")
     assert item.value is not None
     value = item.value.text if isinstance(item.value, tree.Name) else None
     parameters[number] = evaluate_value(draft, item.value) if value is None else value
@@ -155,6 +154,20 @@ def _implicit(draft: Draft, number: int, word: tree.GWord) -> CallRequest:
     return CallRequest("L", name, word.span, parameters)
 
 
+def _refuse_twice(draft: Draft, call: tree.Call, id: str) -> None:
+    """A keyword that the brackets of a call hold a second time."""
+    seen: dict[str, Span] = {}
+    for item in call.arguments[0].items:
+        key = item.key or ""
+        if item.key is None and isinstance(item.value, tree.Name):
+            key = item.value.text.upper().partition("_")[0]  # MODAL, MODAL_MOVE, MODAL_BLOCK
+        if key in seen:
+            notes = (("the first one", seen[key]),)
+            draft.fail(id, item.span, f"{key} is given twice", notes=notes)
+        if key not in ("", "N", "LABEL"):
+            seen[key] = item.span
+
+
 # --- sequences and returns ---------------------------------------------------------------------
 
 
@@ -162,11 +175,12 @@ def _sequence(draft: Draft, call: tree.Call) -> CallRequest:
     """L SEQUENCE [NAME=file N10 N50 REPEAT=2 ENDTAG]: blocks of a program as a subprogram."""
     marks: list[str] = []
     repeat, endtag = 1, False
+    _refuse_twice(draft, call, "21696")
     for item in call.arguments[0].items:
         if item.key == "N" and item.value is not None:
             marks.append(f"N{round(evaluate_number(draft, item.value))}")
         elif item.key == "LABEL" and isinstance(item.value, tree.Name):
-            marks.append(item.value.text)
+            marks.append(f"[{item.value.text}]")
         elif item.key == "REPEAT" and item.value is not None:
             repeat = round(evaluate_number(draft, item.value))
         elif item.key == "ENDTAG":
@@ -195,7 +209,7 @@ def returned(draft: Draft, word: tree.MWord) -> Return:
                 draft.fail("N1005", item.span, "JUMPS counts program levels from 1")
         elif isinstance(item.value, tree.Name) and item.key is None:
             text = item.value.text.upper()
-            levels, label = (0, label) if text == "MAIN" else (levels, text)
+            levels, label = (0, label) if text == "MAIN" else (levels, f"[{text}]")
         else:
             draft.fail("N1005", item.span, "only MAIN, JUMPS=.. and a label can stand here")
     return Return(word.span, levels, label)

@@ -84,7 +84,7 @@ class Draft:
         if name in names:
             return names.index(name)
         if name.startswith("@"):
-            self.cycle_parameters(span)
+            self.cycle_parameters(span, "21383")
             return self.state.main_axes["XYZ".index(name[1])]
         other = [n for n in names if n.lower() == name.lower()]
         hint = f"axis names are case-sensitive: write {other[0]}" if other else ""
@@ -103,13 +103,13 @@ class Draft:
         """A value in mm or degrees as the program reads it (inches under G70)."""
         return value / self.state.unit(axis)
 
-    def cycle_parameters(self, span: Span) -> Mapping[int, float | str]:
+    def cycle_parameters(self, span: Span, id: str = "21382") -> Mapping[int, float | str]:
         """The @P values of the running cycle; fails outside of cycles."""
         held = self.state.running.parameters
         if held is None:
             what = span.text.strip()
             hint = "call it with L CYCLE [NAME=.. @P1=..]"
-            self.fail("21382", span, f"{what} has a meaning in cycles only", hint)
+            self.fail(id, span, f"{what} has a meaning in cycles only", hint)
         return held
 
     # --- changes -------------------------------------------------------------------------------

@@ -39,6 +39,8 @@ class Environment:
 
     def exists(self, node: Node, indices: tuple[int, ...]) -> bool:
         try:
+            if not isinstance(node, tree.CycleParameter) and user_variables.is_user(node):
+                return user_variables.exists(self.draft, node, indices)
             _read(self.draft, node, indices)
         except BlockError:
             return False

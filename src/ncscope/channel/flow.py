@@ -7,14 +7,17 @@ Source: TF5200 programming manual The two limits of $FOR are evaluated before ev
 
 from __future__ import annotations
 
+import re
+
 from ncscope.channel.draft import BlockError, Draft
-from ncscope.channel.evaluation import evaluate_number, write_variable
+from ncscope.channel.evaluation import evaluate_number, evaluate_value, write_variable
 from ncscope.channel.state import State
 from ncscope.channel.subprograms import Frame, Load
 from ncscope.diagnostics import Diagnostic, Span, diagnostic
 from ncscope.language import tree
 from ncscope.language.structure import (
     LOOPS,
+    OPENINGS,
     Entry,
     Layout,
     Level,
@@ -24,6 +27,7 @@ from ncscope.language.structure import (
 )
 from ncscope.machine import Machine
 
+_NUMBERED = re.compile(r"N[0-9]+")
 EQUAL = 0.001
 """Values of $SWITCH and $CASE that differ by less are the same."""
 
@@ -39,12 +43,13 @@ class Walker:
         self, machine: Machine, main: Layout, load: Load | None, skip: frozenset[int]
     ) -> None:
         self.machine, self.load, self.skip = machine, load, skip
-        self.layout = main
+        self.layout, self.main = main, main.source
         self.level: Level = main.main or (0, 0)
         self.at = self.level[0]
         self.calls: list[Frame] = []
         self.layouts: dict[str, Layout] = {main.source.name: main}
         self.passes: dict[tuple[str, int], int] = {}
+        self.complained: set[tuple[str, int]] = set()
 
     @property
     def entry(self) -> Entry | None:
@@ -59,6 +64,19 @@ class Walker:
         own = self.layout.statements.get(last)
         around = self.layout.around[last] + ((own,) if own is not None else ())
         return _open(around)
+
+    def open_warnings(self) -> tuple[Diagnostic, ...]:
+        """20375, once for each statement that is open where this program level ends."""
+        place, found = self._level_kind()[1], []
+        for statement in self.open_statements():
+            key = self.layout.source.name, statement.first
+            if key not in self.complained:
+                self.complained.add(key)
+                message = f"{shown(statement.keyword)} is still open at the end of {place}"
+                hint = f"{shown(OPENINGS[statement.keyword])} is missing"
+                span = self.layout.entries[statement.first].span
+                found.append(diagnostic("20375", span, message, hint))
+        return tuple(found)
 
     # --- one step ------------------------------------------------------------------------------
 
@@ -113,11 +131,18 @@ class Walker:
             return statement.end + self.layout.entries[statement.end].block.ok
         if ran:
             return self.level[1]
-        span = self.layout.entries[statement.first].span
-        name = shown(statement.keyword)
-        id = "21502" if statement.keyword in LOOPS else "21500"
-        id = "21501" if statement.keyword == "SWITCH" else id
-        draft.fail(id, span, f"{name} was skipped and has no end")
+        id, place = self._level_kind()
+        message = f"{shown(statement.keyword)} was skipped and is still open at the end of {place}"
+        hint = f"{shown(OPENINGS[statement.keyword])} is missing"
+        draft.fail(id, self.layout.entries[statement.first].span, message, hint)
+
+    def _level_kind(self) -> tuple[str, str]:
+        """Number and name of the end of this program level: of a subprogram or of the program."""
+        if any(self.level[0] == level[0] for level in self.layout.subprograms.values()):
+            return "21500", "the local subprogram"
+        if self.layout.source is self.main:
+            return "21501", "the program"
+        return "21502", "the subprogram file"
 
     # --- $IF and $SWITCH -----------------------------------------------------------------------
 
@@ -231,18 +256,6 @@ def _open(around: tuple[Statement, ...]) -> tuple[Statement, ...]:
     return tuple(result)
 
 
-def open_warnings(walker: Walker) -> tuple[Diagnostic, ...]:
-    """20375 for each statement that has no end and is open where the program ended."""
-    return tuple(
-        diagnostic(
-            "20375",
-            walker.layout.entries[s.first].span,
-            f"{shown(s.keyword)} is still open at the end of the program",
-        )
-        for s in walker.open_statements()
-    )
-
-
 def _condition(entry: Entry) -> tree.Expression | None:
     """What $IF, $ELSEIF, $CASE or #IF evaluates; None for $ELSE and $DEFAULT."""
     if entry.block.control is not None:
@@ -276,9 +289,14 @@ def _assignment(control: tree.Control, operator: str, value: tree.Expression) ->
 
 def _label(draft: Draft, control: tree.Control) -> str:
     if isinstance(control.target, tree.Name):
-        return control.target.text
+        return f"[{control.target.text}]"
     if isinstance(control.target, tree.Number):
         return f"N{round(control.target.value)}"
+    value = evaluate_value(draft, control.values[-1])
+    if isinstance(value, str):  # of an external variable
+        name = value.strip().upper()
+        bare = not name.startswith("[") and not _NUMBERED.fullmatch(name)
+        return f"[{name}]" if bare else name
     return f"N{round(evaluate_number(draft, control.values[-1]))}"
 
 

@@ -1,42 +1,62 @@
 """Macros: a text under a name, which stands for itself wherever the name is written.
 
-Source: TF5200 programming manual, macros. A macro is valid until #INIT MACRO TAB.
+A macro is valid until #INIT MACRO TAB. What is wrong inside of a text is reported where the macro
+is used. Source: TF5200 programming manual, macros; P-CHAN-00511.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
 
 from ncscope.channel.draft import BlockError, Draft
-from ncscope.diagnostics import Diagnostic, Source, diagnostic
+from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language import tree
+from ncscope.language.expressions import DEEPEST_MACRO, used_at
 from ncscope.language.parser import parse_block
-
-DEEPEST = 20
 
 
 def define(draft: Draft, word: tree.MacroDefinition) -> None:
     """`"NAME" = "text"`; a later definition replaces the text."""
     if not word.name:
         draft.fail("20619", word.span, "a macro needs a name")
+    _check_length(draft, word.name, word.span)
     macros = {**draft.state.macros, word.name: word.text}
     draft.state = replace(draft.state, macros=macros)
 
 
+def _check_length(draft: Draft, name: str, span: Span) -> None:
+    longest = draft.machine.settings.macro_name_length
+    if len(name) > longest:
+        what = f"the name of the macro has {len(name)} characters; {longest} are allowed"
+        draft.fail("20614", span, what)
+
+
 def words(draft: Draft, word: tree.Macro, depth: int) -> tuple[tree.Word, ...]:
-    """The words that a macro stands for."""
+    """The words that a macro stands for; they stand where the macro is used."""
     text = draft.state.macros.get(word.name)
     if text is None:
+        _check_length(draft, word.name, word.span)
         hint = f'define it first: "{word.name}" = "text"'
         draft.fail("20619", word.span, f"the macro {word.name!r} is not defined", hint)
-    if depth >= DEEPEST:
-        draft.fail("20386", word.span, f"the macro {word.name!r} calls itself")
+    if depth >= DEEPEST_MACRO:
+        hint = "a macro cannot stand in its own text, nor in the text of a macro that it uses"
+        draft.fail("20734", word.span, f"the macro {word.name!r} contains itself", hint)
     found, error = _parsed(text, f"text of the macro {word.name}")
     if error is not None:
-        note = ("used here", word.span)
-        raise BlockError(replace(error, notes=(*error.notes, note)))
-    return found
+        raise BlockError(error)
+    return tuple(replace(item, span=word.span) for item in found)
+
+
+@contextmanager
+def used(word: tree.Macro) -> Iterator[None]:
+    """An error in the text of the macro becomes one at the place where the macro stands."""
+    try:
+        yield
+    except BlockError as error:
+        raise BlockError(used_at(error.diagnostic, word.span)) from error
 
 
 @lru_cache(maxsize=1000)
@@ -46,7 +66,7 @@ def _parsed(text: str, name: str) -> tuple[tuple[tree.Word, ...], Diagnostic | N
     error = next((d for d in found if d.is_error), None)
     if error is not None or block is None:
         return (), error
-    if block.control or block.commands or block.number or block.label or block.header:
+    if block.control or block.commands or block.number or block.labels or block.header:
         message = "a macro holds words; $ and # commands and block numbers cannot stand in it"
         return (), diagnostic("20644", block.span, message)
     return block.words, None

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
-from dataclasses import replace
-
 import numpy as np
 
 from ncscope.channel import offsets
 from ncscope.channel.commands.transformation_stack import activate_at_start
 from ncscope.channel.draft import BlockError, Draft
+from ncscope.channel.external_variables import External, external_variables
 from ncscope.channel.given import GivenRows
 from ncscope.channel.modulo import modulo_axes
 from ncscope.channel.selection import activate
@@ -20,28 +17,25 @@ from ncscope.channel.state import (
     Measuring,
     Position,
     State,
-    Stored,
     SystemMode,
 )
 from ncscope.coordinates import Coordinates
 from ncscope.diagnostics import Diagnostic, Span
 from ncscope.machine import Machine, OffsetRecord
 
-EXTERNAL_NAME = re.compile(r"V\.E\.([^\s\[\]=]+)(?:\[(\d{1,6})\])?")
-
 
 def start_state(
     machine: Machine,
     clamp_index: int | None = None,
     probe: GivenRows | None = None,
-    external: Mapping[str, float | str] | None = None,
+    external: External | None = None,
     manual: GivenRows | None = None,
 ) -> State:
     """The state at program start: all axes at 0, default zero offset, clamp offset if chosen.
 
     probe: the answers of the probe, a row for each measuring run. manual: jog increments, a row
     for each G200 and G201.
-    external: values of V.E variables, as `V.E.NAME` or `V.E.NAME[2]`.
+    external: values of V.E variables, see `external_variables`.
     Raises KeyError when the machine has no clamp position with this index, or no V.E element.
     """
     n = len(machine.axes)
@@ -59,7 +53,8 @@ def start_state(
         system_mode=SystemMode(per_level=machine.settings.offsets_per_level),
         manual=manual,
         length_axis=LengthAxis(2, 1.0) if machine.settings.tool_length_stays else None,
-        variables=_external(machine, external or {}),
+        variables=external_variables(machine, external or {}),
+        macros=machine.settings.macros,
     )
     if clamp_index is not None:
         record: OffsetRecord = machine.clamp_positions[clamp_index]
@@ -91,39 +86,6 @@ def _kinematics(machine: Machine) -> Kinematics:
         program=machine.program_step_parameters,
         program_id=settings.default_program_step_id,
     )
-
-
-def _external(machine: Machine, values: Mapping[str, float | str]) -> dict[str, Stored]:
-    """The V.E variables: declared ones start at 0 or empty, a value that is set declares too."""
-    variables: dict[str, Stored] = {}
-    for name, row in machine.external.items():
-        start: float | str = "" if row.type == "STRING" else 0.0
-        dimensions = (row.elements,) if row.elements else ()
-        value = (start,) * row.elements if row.elements else start
-        variables[f"V.E.{name}"] = Stored(value, dimensions, row.type, row.length)
-    for text, value in values.items():
-        match = EXTERNAL_NAME.fullmatch(text)
-        if match is None:
-            raise KeyError(f"{text} is no external variable: write V.E.NAME")
-        name, index = f"V.E.{match.group(1)}", match.group(2)
-        variables[name] = _with_value(variables.get(name), name, index, value)
-    return variables
-
-
-def _with_value(old: Stored | None, name: str, index: str | None, value: float | str) -> Stored:
-    if old is None and index is None:
-        return Stored(value, type="STRING" if isinstance(value, str) else "REAL64")
-    if old is None or bool(old.dimensions) != (index is not None):
-        raise KeyError(f"{name} is {'an array' if old and old.dimensions else 'no array'}")
-    if isinstance(value, str) != (old.type == "STRING"):
-        raise KeyError(f"{name} is of type {old.type}")
-    if index is None or not isinstance(old.value, tuple):
-        return replace(old, value=value)
-    if int(index) >= len(old.value):
-        raise KeyError(f"{name} has the elements 0 to {len(old.value) - 1}")
-    items = list(old.value)
-    items[int(index)] = value
-    return replace(old, value=tuple(items))
 
 
 def with_stack(machine: Machine, state: State) -> tuple[State, tuple[Diagnostic, ...]]:

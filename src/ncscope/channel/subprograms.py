@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ncscope.channel import contour, offsets
 from ncscope.channel.draft import BlockError, Draft
+from ncscope.channel.evaluation import evaluate_number
 from ncscope.channel.state import CallRequest, Return, Running, State, Stored
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language import tree
@@ -73,6 +74,7 @@ def leave(walker: Walker, state: State, order: Return | None = None) -> Passage:
     """Back to the line behind the call, or as far as the brackets of M17 say."""
     span = order.span if order is not None else walker.calls[-1].request.span
     draft = Draft(walker.machine, state, span.place)
+    draft.diagnostics.extend(walker.open_warnings())
     try:
         if order is not None and (order.levels != 1 or order.label):
             return _leave_far(walker, draft, order)
@@ -245,7 +247,7 @@ def global_file(walker: Walker, draft: Draft, request: CallRequest) -> tuple[Lay
 
 def _sequence(walker: Walker, draft: Draft, request: CallRequest) -> tuple[Layout, Level, int]:
     """The blocks of a sequence as a level of its own, which ends behind its last block."""
-    aim, level = walker.layout, walker.level
+    aim, level = walker.layout, _whole(walker.layout, walker.level)
     if request.name:
         aim, level = global_file(walker, draft, request)
     first = _marked(draft, aim, level, request, request.first)
@@ -261,6 +263,12 @@ def _sequence(walker: Walker, draft: Draft, request: CallRequest) -> tuple[Layou
     return aim, (level[0], stop), first
 
 
+def _whole(aim: Layout, level: Level) -> Level:
+    """The level of a program or subprogram of which a sequence runs a part."""
+    levels = [*([aim.main] if aim.main else []), *aim.subprograms.values()]
+    return next((whole for whole in levels if whole[0] == level[0]), level)
+
+
 def _holds(block: Span, part: Span) -> bool:
     return block.source is part.source and block.start <= part.start < block.end
 
@@ -271,10 +279,19 @@ def _marked(draft: Draft, aim: Layout, level: Level, request: CallRequest, mark:
     if found is not None:
         return found
     for at in range(*level):
-        number = aim.entries[at].block.number
-        if isinstance(number, tree.Number) and f"N{round(number.value)}" == mark:
+        if f"N{_number(draft, aim.entries[at].block)}" == mark:
             return at
     draft.fail("20840", request.span, f"the block {mark} is not found in {aim.source.name}")
+
+
+def _number(draft: Draft, block: tree.Block) -> int | None:
+    """The block number as it is now; None without one, or where it has no value yet."""
+    if block.number is None:
+        return None
+    try:
+        return round(evaluate_number(draft, block.number))
+    except BlockError:
+        return None
 
 
 def nesting_warning(span: Span) -> Diagnostic:

@@ -58,8 +58,8 @@ def read(draft: Draft, node: Node, numbers: tuple[int, ...]) -> Value:
     if key.startswith("V.E."):
         _check_access(draft, key, "READ", node.span)
     if isinstance(stored.value, tuple):
-        return stored.value[_element(draft, key, stored, indices, node.span)]
-    _refuse_indices(draft, key, indices, node.span)
+        return stored.value[_element(draft, key, stored, indices, node.span, reading=True)]
+    _refuse_indices(draft, key, indices, node.span, reading=True)
     return stored.value
 
 
@@ -103,15 +103,26 @@ def _check_access(draft: Draft, key: str, right: str, span: Span) -> None:
         draft.fail(id, span, f"{key} cannot be {what}: its access right is {declared.access}")
 
 
-def _fitting(draft: Draft, key: str, stored: Stored, value: Value, span: Span) -> Value:
-    """The value as the type of the variable holds it; a fraction is rounded for a whole number."""
+class Unfit(Exception):
+    """A value that its variable cannot hold: number, message and hint of the diagnostic."""
+
+    def __init__(self, id: str, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.id, self.message, self.hint = id, message, hint
+
+
+def fitted(key: str, stored: Stored, value: Value) -> Value:
+    """The value as the type of the variable holds it; a fraction is rounded for a whole number.
+
+    Raises Unfit.
+    """
     if isinstance(value, str) != (stored.type == "STRING"):
-        what = "a text" if isinstance(value, str) else "a number"
-        draft.fail("20392", span, f"{key} is of type {stored.type} and cannot hold {what}")
+        what = f"the text {value!r}" if isinstance(value, str) else "a number"
+        raise Unfit("20392", f"{key} is of type {stored.type} and cannot hold {what}")
     if isinstance(value, str):
         if stored.length and len(value) > stored.length:
             what = f"{key} holds {stored.length} characters, the text has {len(value)}"
-            draft.fail("N1008", span, what, "declare it with a larger STRING[..]")
+            raise Unfit("21462", what, "declare it with a larger STRING[..]")
         return value
     if stored.type == "BOOLEAN":
         return float(abs(value) >= 0.5)
@@ -121,8 +132,15 @@ def _fitting(draft: Draft, key: str, stored: Stored, value: Value, span: Span) -
     whole = rounded(value)
     if not limits[0] <= whole <= limits[1]:
         what = f"{whole} is outside of {limits[0]} to {limits[1]}"
-        draft.fail("21883", span, f"{key} is of type {stored.type}: {what}")
+        raise Unfit("20847", f"{key} is of type {stored.type}: {what}")
     return float(whole)
+
+
+def _fitting(draft: Draft, key: str, stored: Stored, value: Value, span: Span) -> Value:
+    try:
+        return fitted(key, stored, value)
+    except Unfit as problem:
+        draft.fail(problem.id, span, problem.message, problem.hint)
 
 
 def declare(
@@ -207,11 +225,20 @@ def _resolve(draft: Draft, node: Node, numbers: tuple[int, ...]) -> tuple[str, t
     return f"V.{group}.{name}", numbers
 
 
-def _element(draft: Draft, key: str, stored: Stored, indices: tuple[int, ...], span: Span) -> int:
+def _element(
+    draft: Draft,
+    key: str,
+    stored: Stored,
+    indices: tuple[int, ...],
+    span: Span,
+    reading: bool = False,
+) -> int:
     if len(indices) < len(stored.dimensions):
-        draft.fail("21216", span, f"{key} needs {len(stored.dimensions)} indices")
+        id = "20925" if key.startswith("P") else "21216"
+        draft.fail(id, span, f"{key} needs {_indices(len(stored.dimensions))}", _size(stored))
     if len(indices) > len(stored.dimensions):
-        draft.fail("20924", span, f"{key} has only {len(stored.dimensions)} dimensions")
+        id = "20925" if key.startswith("P") and reading else "20924"
+        draft.fail(id, span, f"{key} has only {_indices(len(stored.dimensions))}", _size(stored))
     element = 0
     for index, length in zip(indices, stored.dimensions, strict=True):
         if not 0 <= index < length:
@@ -222,6 +249,28 @@ def _element(draft: Draft, key: str, stored: Stored, indices: tuple[int, ...], s
     return element
 
 
-def _refuse_indices(draft: Draft, key: str, indices: tuple[int, ...], span: Span) -> None:
+def _indices(count: int) -> str:
+    return "1 index" if count == 1 else f"{count} indices"
+
+
+def _size(stored: Stored) -> str:
+    sizes = "".join(f"[{n}]" for n in stored.dimensions)
+    return f"it is declared with {sizes}, and indices count from 0"
+
+
+def _refuse_indices(
+    draft: Draft, key: str, indices: tuple[int, ...], span: Span, reading: bool = False
+) -> None:
     if indices:
-        draft.fail("20924", span, f"{key} is not an array")
+        id = "20925" if key.startswith("P") and reading else "20924"
+        draft.fail(id, span, f"{key} is not an array")
+
+
+def exists(draft: Draft, node: Node, numbers: tuple[int, ...]) -> bool:
+    """EXIST: whether there is such a variable or element, whoever may read it."""
+    key, indices = _resolve(draft, node, numbers)
+    stored = draft.state.variables.get(key)
+    if stored is None or not indices:
+        return stored is not None
+    inside = (0 <= i < n for i, n in zip(indices, stored.dimensions, strict=False))
+    return len(indices) == len(stored.dimensions) and all(inside)

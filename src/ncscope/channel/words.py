@@ -33,7 +33,7 @@ def cycle_letter(draft: Draft, word: tree.AddressWord) -> str:
     """The letter of an address word: in a cycle @I @J @K are the centre words of the plane."""
     if not word.letter.startswith("@"):
         return word.letter
-    draft.cycle_parameters(word.span)
+    draft.cycle_parameters(word.span, "21385" if word.letter == "@S" else "21384")
     if word.letter == "@S":
         return "S"
     return "IJK"[draft.state.main_axes["IJK".index(word.letter[1])]]

@@ -15,9 +15,9 @@ from ncscope.cli.options import (
     ManualOption,
     ProbeOption,
     SetOption,
-    read_settings,
 )
 from ncscope.cli.screen import fail, show_diagnostics
+from ncscope.cli.settings import read_settings
 
 if TYPE_CHECKING:
     from ncscope.diagnostics import Diagnostic

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ncscope.cli.screen import fail, progress_bar
+from ncscope.cli.settings import typed_settings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,6 +61,7 @@ def read_inputs(
     if options.clamp is not None and options.clamp not in machine.clamp_positions:
         has = ", ".join(str(i) for i in sorted(machine.clamp_positions)) or "none"
         fail(f"clamp position {options.clamp} does not exist; the lists have: {has}")
+    options = replace(options, external=typed_settings(machine, options.external))
     try:
         start_state(machine, external=options.external)
     except KeyError as error:

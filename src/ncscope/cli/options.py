@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
@@ -46,29 +45,6 @@ FoldersOption = Annotated[
 BlocksOption = Annotated[
     int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
 ]
-
-
-def read_settings(texts: list[str] | None) -> dict[str, float | str]:
-    """The values of --set: numbers, TRUE and FALSE, or texts with or without quotes."""
-    values: dict[str, float | str] = {}
-    for text in texts or ():
-        name, equals, value = text.partition("=")
-        if not equals or not name.startswith("V.E."):
-            fail(f"--set {text}: write V.E.NAME=VALUE")
-        values[name.strip()] = _setting(value.strip())
-    return values
-
-
-def _setting(text: str) -> float | str:
-    if len(text) >= 2 and text[0] == text[-1] == '"':
-        return text[1:-1]
-    if text.upper() in ("TRUE", "FALSE"):
-        return float(text.upper() == "TRUE")
-    try:
-        number = float(text)
-    except ValueError:
-        return text
-    return number if isfinite(number) else text
 
 
 def read_levels(text: str) -> frozenset[int]:

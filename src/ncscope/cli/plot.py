@@ -19,9 +19,9 @@ from ncscope.cli.options import (
     SetOption,
     SkipOption,
     read_levels,
-    read_settings,
 )
 from ncscope.cli.screen import fail, show_diagnostics
+from ncscope.cli.settings import read_settings
 
 if TYPE_CHECKING:
     from ncscope.machine import Machine

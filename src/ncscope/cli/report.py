@@ -19,7 +19,6 @@ from ncscope.cli.options import (
     SetOption,
     SkipOption,
     read_levels,
-    read_settings,
 )
 from ncscope.cli.plot import (
     SAMPLE,
@@ -30,6 +29,7 @@ from ncscope.cli.plot import (
     write_picture,
 )
 from ncscope.cli.screen import fail
+from ncscope.cli.settings import read_settings
 
 if TYPE_CHECKING:
     from ncscope.execution import Program

@@ -21,9 +21,9 @@ from ncscope.cli.options import (
     SetOption,
     SkipOption,
     read_levels,
-    read_settings,
 )
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
+from ncscope.cli.settings import read_settings
 from ncscope.cli.writing import Format, write_run
 
 if TYPE_CHECKING:

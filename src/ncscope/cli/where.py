@@ -20,9 +20,9 @@ from ncscope.cli.options import (
     SkipOption,
     read_levels,
     read_place,
-    read_settings,
 )
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
+from ncscope.cli.settings import read_settings
 from ncscope.cli.words import read_positions
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from ncscope.language.cursor import Cursor
+from ncscope.language.cursor import Cursor, Mistake
 from ncscope.language.terms import expression, starts_target, target
 from ncscope.language.tree import (
     Assignment,
@@ -37,9 +37,30 @@ ALONE = frozenset(
     )
 )
 
-_KEYWORD = re.compile(r"\$[ \t\0\r]*([A-Za-z]+)")
-_GOTO = re.compile(r"\$[ \t\0\r]*GOTO(?![A-Za-z])", re.IGNORECASE)
+BEHIND: dict[str, str] = {
+    "IF": "20212",
+    "ELSE": "20215",
+    "ELSEIF": "20217",
+    "IFELSE": "20217",
+    "ENDIF": "20219",
+    "SWITCH": "20220",
+    "CASE": "20222",
+    "DEFAULT": "20224",
+    "WHILE": "20235",
+    "ENDWHILE": "20238",
+    "DO": "20239",
+    "ENDDO": "20241",
+    "BREAK": "20242",
+    "CONTINUE": "20245",
+    "REPEAT": "21468",
+    "UNTIL": "21470",
+}
+"""Numbers for what stands behind a control statement in its line; 20206 for the others."""
+
+_KEYWORD = re.compile(r"\$([A-Za-z]+)")
+_GOTO = re.compile(r"\$GOTO(?![A-Za-z])", re.IGNORECASE)
 _LABEL = re.compile(r"\[[ \t\0\r]*([^\s\0\[\]]+)[ \t\0\r]*\]")
+_EXTERNAL = re.compile(r"(?=V\.E\.)", re.IGNORECASE)
 _EQUALS = re.compile(r"[ \t\0\r]*=(?!=)")
 
 Jump = tuple[tuple[Expression, ...], Name | Number | None]
@@ -66,7 +87,27 @@ def control(cursor: Cursor) -> tuple[Control, Assignment | None]:
         return Control(keyword, (), None, cursor.span(start)), None
     end = max(cursor.at, start + 1)
     message = f"The control statement ${keyword} is unknown."
-    raise cursor.mistake("20209", message, span=cursor.span(start, end))
+    hint = "" if keyword else "the keyword follows $ without a blank, for example $IF"
+    raise cursor.mistake("20209", message, hint, cursor.span(start, end))
+
+
+def broken(cursor: Cursor, start: int) -> Control | None:
+    """What stands in the tree for a statement that cannot be read: it still has its end."""
+    cursor.at = start
+    found = cursor.match(_KEYWORD)
+    keyword = found.group(1).upper() if found else ""
+    known = keyword == "FOR" or keyword in WITH_CONDITION
+    return Control(keyword, (), None, cursor.span(start)) if known else None
+
+
+def behind(cursor: Cursor, statement: Control) -> Mistake:
+    """The mistake of a word or command behind a control statement."""
+    message = f"${statement.keyword} must stand alone in its block."
+    if statement.values:
+        message = f"Behind ${statement.keyword} only its condition may stand."
+    compares = statement.keyword in WITH_CONDITION and cursor.char == "="
+    hint = "two equals signs compare: ==" if compares else "put it on a line of its own"
+    return cursor.mistake(BEHIND.get(statement.keyword, "20206"), message, hint)
 
 
 def _condition(cursor: Cursor, keyword: str, start: int) -> Control:
@@ -82,15 +123,20 @@ def _condition(cursor: Cursor, keyword: str, start: int) -> Control:
 
 
 def _jump(cursor: Cursor) -> Jump:
-    """aim = "N" , expr | "[" , name , "]" ;  names in capitals, since their case does not count"""
+    """aim = "N" , expr | "[" , name , "]" | external ;  the case of names does not count
+
+    An external variable V.E of the type STRING holds the label.
+    """
     if cursor.skip() == "[":
         begin = cursor.at
         label = cursor.match(_LABEL)
         if label is not None:
             return (), Name(label.group(1).upper(), cursor.span(begin))
+    if cursor.match(_EXTERNAL):
+        return (target(cursor),), None
     if cursor.char.upper() != "N":
         hint = "write $GOTO N20 or $GOTO [NAME]"
-        raise cursor.mistake("N1005", "$GOTO needs a label.", hint)
+        raise cursor.mistake("20839", "$GOTO needs a label.", hint)
     cursor.at += 1
     number = expression(cursor)
     return ((), number) if isinstance(number, Number) else ((number,), None)
@@ -102,13 +148,13 @@ def _for(cursor: Cursor, start: int) -> Control:
     counter = _target(cursor)
     if not cursor.match(_EQUALS):
         raise cursor.mistake(
-            "N1005", "$FOR needs '=' behind its variable.", "write $FOR P1 = 1,5,1"
+            "20228", "$FOR needs '=' behind its variable.", "write $FOR P1 = 1,5,1"
         )
     values = [expression(cursor)]
     for _ in range(2):
         if not cursor.take(","):
             message = "$FOR needs a first value, a last value and a step, with commas between."
-            raise cursor.mistake("N1005", message, "write $FOR P1 = 1,5,1")
+            raise cursor.mistake("20229", message, "write $FOR P1 = 1,5,1")
         values.append(expression(cursor))
     return Control("FOR", tuple(values), counter, cursor.span(start))
 

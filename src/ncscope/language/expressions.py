@@ -8,7 +8,9 @@ Source: TF5200 programming manual; the conventions there are marked as ours.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 from ncscope.diagnostics import Diagnostic, Span, diagnostic
@@ -31,7 +33,7 @@ from ncscope.language.tree import (
 
 Value = float | str
 Readable = Variable | Parameter | CycleParameter
-_DEEPEST_MACRO = 20
+DEEPEST_MACRO = 20
 
 
 class Environment(Protocol):
@@ -51,6 +53,7 @@ class Environment(Protocol):
     def macro(self, name: str) -> str | None: ...
 
 
+_NESTED = re.compile(r'"([^"]*)"')
 Compiled = Callable[[Environment], Value]
 
 
@@ -218,6 +221,8 @@ def _function(node: Function) -> Compiled:
     def run(environment: Environment) -> Value:
         values = tuple(argument(environment) for argument in compiled)
         _check_strings(node, values, entry.kinds)
+        if apply is None and node.name == "MACRO_CONTENT":
+            return content(str(values[0]), environment, span)
         if apply is None:
             return float(len(_macro_text(environment, str(values[0]), span)))
         result: Value = _checked(apply, values, span)
@@ -270,8 +275,9 @@ def _read(node: Readable) -> Compiled:
 def _macro(node: Macro) -> Compiled:
     def run(environment: Environment) -> Value:
         depth = environment.depth + 1 if isinstance(environment, _InMacro) else 1
-        if depth > _DEEPEST_MACRO:
-            raise failure("20386", node.span, f"The macro {node.name!r} calls itself.")
+        if depth > DEEPEST_MACRO:
+            hint = "a macro cannot stand in its own text, nor in the text of a macro that it uses"
+            raise failure("20734", node.span, f"The macro {node.name!r} contains itself.", hint)
         text = _macro_text(environment, node.name, node.span)
         inside = environment.outer if isinstance(environment, _InMacro) else environment
         try:
@@ -279,9 +285,29 @@ def _macro(node: Macro) -> Compiled:
         except Mistake as mistake:
             message = f"The macro {node.name!r} is no expression: {mistake.item.message}"
             raise failure(mistake.item.id, node.span, message) from None
-        return _compile(tree)(_InMacro(inside, depth))
+        try:
+            return _compile(tree)(_InMacro(inside, depth))
+        except EvaluationError as error:
+            raise EvaluationError(used_at(error.diagnostic, node.span)) from None
 
     return run
+
+
+def used_at(item: Diagnostic, span: Span) -> Diagnostic:
+    """The diagnostic of a macro's text as one of the place that uses the macro, with one note."""
+    if item.span is None or item.span.source is span.source:
+        return item
+    notes = item.notes or (("in the text of the macro", item.span),)
+    return replace(item, span=span, notes=notes)
+
+
+def content(name: str, environment: Environment, span: Span, depth: int = 0) -> str:
+    """The text of a macro with the texts of the macros that it uses."""
+    text = environment.macro(name)
+    if text is None or depth > DEEPEST_MACRO or len(text) > LONGEST_TEXT:
+        why = "is not defined" if text is None else "contains itself or is too long"
+        raise failure("22276", span, f"The macro {name!r} {why}.")
+    return _NESTED.sub(lambda use: content(use.group(1), environment, span, depth + 1), text)
 
 
 def _macro_text(environment: Environment, name: str, span: Span) -> str:

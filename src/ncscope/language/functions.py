@@ -189,5 +189,6 @@ FUNCTIONS: dict[str, Entry] = {
     "EXIST": Entry(1, 1, "*", None),
     "SIZEOF": Entry(1, 2, "*n", None),
     "MACRO_LENGTH": Entry(1, 1, "s", None),
+    "MACRO_CONTENT": Entry(1, 1, "s", None),
 }
 # fmt: on

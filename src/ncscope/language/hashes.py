@@ -142,7 +142,8 @@ def declaration(cursor: Cursor) -> Declaration:
     """decl = target , [ ":" , type ] , [ "=" , initial ] ;"""
     start = cursor.at
     if not starts_target(cursor):
-        raise cursor.mistake("20394", "A variable V... or a parameter P.. is declared here.")
+        message = "Between #VAR and #ENDVAR only declarations of variables V... and P.. stand."
+        raise cursor.mistake("20394", message, "#ENDVAR on a line of its own ends them")
     left = target(cursor)
     if isinstance(left, CycleParameter):
         raise cursor.mistake("20908", "A cycle parameter may not be declared.")
@@ -161,7 +162,7 @@ def _type(cursor: Cursor) -> tuple[str, Expression | None]:
     cursor.at += len(name)
     if name.upper() != "STRING" or cursor.skip() != "[":
         return name.upper(), None
-    return "STRING", arguments_in_brackets(cursor)[0]
+    return "STRING", arguments_in_brackets(cursor, "21217")[0]
 
 
 def _initial(cursor: Cursor) -> tuple[Expression, ...]:

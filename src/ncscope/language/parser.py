@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language.commands import lookup
-from ncscope.language.controls import control
+from ncscope.language.controls import behind, broken, control
 from ncscope.language.cursor import Cursor, Mistake
 from ncscope.language.hashes import declaration, hash_command, unknown_command
 from ncscope.language.lexer import BLANKS, LONGEST_LINE, Line, read_line
@@ -56,7 +56,7 @@ class _Draft:
     """What has been read of a block."""
 
     number: Expression | None = None
-    label: str | None = None
+    labels: tuple[str, ...] = ()
     skip: int | None = None
     words: list[Word] = field(default_factory=list)
     commands: list[HashCommand] = field(default_factory=list)
@@ -115,6 +115,9 @@ class BlockReader:
             pending = ()
             block, found = self._follow_header(block, found)
             name = block.commands[0].name if block.commands else ""
+            if name == "ENDVAR" and not declaring:
+                message = "#ENDVAR has no #VAR before it."
+                block, found = _with(block, (*found, diagnostic("N1007", block.span, message)))
             declaring = name == "VAR" or (declaring and name != "ENDVAR")
             self.in_area = declaring or name == "COMMENT BEGIN"
             if name == "COMMENT BEGIN":
@@ -196,7 +199,7 @@ def _block_start(cursor: Cursor, draft: _Draft) -> None:
         cursor.skip()
     label = cursor.match(_LABEL)
     if label is not None:
-        draft.label = label.group(1).upper()
+        draft.labels += (f"[{label.group(1).upper()}]",)
 
 
 def _block_number(cursor: Cursor, draft: _Draft) -> None:
@@ -210,20 +213,22 @@ def _block_number(cursor: Cursor, draft: _Draft) -> None:
         return
     number = draft.number
     written = cursor.code[start : cursor.at - 1].upper()
-    draft.label = f"N{round(number.value)}" if isinstance(number, Number) else written
+    draft.labels += (f"N{round(number.value)}" if isinstance(number, Number) else written,)
 
 
 def _content(cursor: Cursor, draft: _Draft, declarations: bool) -> None:
     """content = control | hashcmd | declaration | word ;"""
+    if draft.control is not None and draft.control.keyword != "GOTO":
+        raise behind(cursor, draft.control)
     match cursor.char:
         case "#":
             _hash(cursor, draft)
         case "$":
             _control(cursor, draft)
         case "N" | "n":
-            start, label = cursor.at, draft.label
+            start, labels = cursor.at, draft.labels
             _block_number(cursor, draft)
-            if draft.label != label:
+            if draft.labels != labels:
                 raise _late_label(cursor, start)
         case "%":
             raise cursor.mistake("20193", "A program header must begin its line.")
@@ -253,8 +258,13 @@ def _hash(cursor: Cursor, draft: _Draft) -> None:
 
 def _control(cursor: Cursor, draft: _Draft) -> None:
     if draft.control is not None:
-        raise cursor.mistake("20206", "Two control statements stand in one block.")
-    draft.control, assigned = control(cursor)
+        raise behind(cursor, draft.control)
+    start = cursor.at
+    try:
+        draft.control, assigned = control(cursor)
+    except Mistake:
+        draft.control = broken(cursor, start)
+        raise
     if assigned is not None:
         draft.words.append(assigned)
 
@@ -262,13 +272,8 @@ def _control(cursor: Cursor, draft: _Draft) -> None:
 def _exclusive(draft: _Draft) -> Diagnostics:
     """Control statements, and most # commands, share their block with nothing else."""
     crowd = len(draft.words) + len(draft.commands) + len(draft.declarations)
-    statement = draft.control
-    if statement is not None:
-        allowed = crowd == 0 or statement.keyword == "GOTO"
-        allowed = allowed or (statement.keyword == "SWITCH" and crowd == 1)
-        if not allowed:
-            message = f"${statement.keyword} must stand alone in its block."
-            return (diagnostic("20206", statement.span, message),)
+    if draft.control is not None and draft.control.keyword != "GOTO":
+        return _alone(draft, draft.control)
     for command in draft.commands:
         row = lookup(command.name)
         if crowd > 1 and command.known and row is not None and row.stands_alone:
@@ -278,10 +283,20 @@ def _exclusive(draft: _Draft) -> Diagnostics:
     return ()
 
 
+def _alone(draft: _Draft, statement: Control) -> Diagnostics:
+    """A control statement may have a block number or skip mark before it, and nothing else."""
+    others = [*draft.words, *draft.commands, *draft.declarations]
+    if not any(o.span.start < statement.span.start for o in others):
+        return ()
+    message = f"${statement.keyword} must stand alone in its block."
+    hint = "put what stands before it on a line of its own"
+    return (diagnostic("20206", statement.span, message, hint),)
+
+
 def _block(draft: _Draft, span: Span, ok: bool) -> Block:
     return Block(
         draft.number,
-        draft.label,
+        draft.labels,
         draft.skip,
         tuple(draft.words),
         tuple(draft.commands),

@@ -28,6 +28,20 @@ BRANCHES = {
     "CASE": "SWITCH",
     "DEFAULT": "SWITCH",
 }
+UNEXPECTED = {
+    "ELSE": "20214",
+    "ELSEIF": "20216",
+    "IFELSE": "20216",
+    "ENDIF": "20218",
+    "CASE": "20221",
+    "DEFAULT": "20223",
+    "ENDSWITCH": "20225",
+    "ENDFOR": "20232",
+    "ENDWHILE": "20237",
+    "BREAK": "20243",
+    "CONTINUE": "20244",
+}
+"""Numbers for a statement that does not belong to the open one; N1007 for the others."""
 ENDINGS = {end: opening for opening, end in OPENINGS.items()}
 MOST_NESTED = 100
 
@@ -102,12 +116,22 @@ def _entry(block: Block, found: Diagnostics) -> Entry:
     if name in ("IF", "ELSE", "ENDIF"):
         return Entry(block, found, f"#{name}")
     calls = [i for i, w in enumerate(block.words) if isinstance(w, Call)]
-    if not calls or len(block.words) == calls[0] + 1:
+    if not calls:
         return Entry(block, found)
     call, rest = block.words[calls[0]], block.words[calls[0] + 1 :]
     assert isinstance(call, Call)
+    if calls[0] and call.kind.endswith("CYCLE"):
+        found = (*found, _before_cycle(call))
+    if not rest:
+        return Entry(block, found)
     found = (*found, _behind_call(call, rest[0].span))
     return Entry(replace(block, words=block.words[: calls[0] + 1]), found)
+
+
+def _before_cycle(call: Call) -> Diagnostic:
+    message = f"{call.kind} must stand in a block of its own; the words before it run first."
+    hint = "put them on a line of their own"
+    return diagnostic("20209", call.span, message, hint, severity=Severity.WARNING)
 
 
 def _behind_call(call: Call, span: Span) -> Diagnostic:
@@ -150,25 +174,25 @@ class _Builder:
         self.open = ()
         for at in range(*level):
             entry = self.entries[at]
-            self._label(level, at, entry)
+            for label in entry.block.labels:
+                self._label(level, at, label)
             self.around[at] = self.open
             if entry.keyword:
                 self._statement(at, entry)
             elif not entry.block.ok and entry.block.span.text.lstrip("/N0123456789 ")[:1] == "$":
                 self.found.extend(entry.found)
 
-    def _label(self, level: Level, at: int, entry: Entry) -> None:
-        label = entry.block.label
-        if label is None:
-            return
-        if "[" in label or label[1:2] in ("P", "V", "@"):
+    def _label(self, level: Level, at: int, label: str) -> None:
+        if label[0] != "[" and not label[1:].isdigit():
             self.computed.setdefault(level[0], []).append(at)
             return
         first = self.labels.setdefault((level[0], label), at)
         if first != at:
             notes = (("the first one", self.entries[first].block.span),)
             message = f"The label {label} is defined twice."
-            self.found.append(diagnostic("20836", entry.block.span, message, notes=notes))
+            self.found.append(
+                diagnostic("20836", self.entries[at].block.span, message, notes=notes)
+            )
 
     def _statement(self, at: int, entry: Entry) -> None:
         keyword = entry.keyword
@@ -202,7 +226,8 @@ class _Builder:
             last = self.entries[top.branches[-1]]
             if last.keyword.endswith("ELSE") and last.keyword != "IFELSE":
                 message = f"{shown(keyword)} stands behind {shown(last.keyword)}."
-                self.found.append(diagnostic("N1007", self.entries[at].span, message))
+                id = UNEXPECTED.get(keyword, "N1007")
+                self.found.append(diagnostic(id, self.entries[at].span, message))
         top.branches = (*top.branches, at)
         self.statements[at] = top
         self.around[at] = self.open
@@ -220,9 +245,8 @@ class _Builder:
         inner = next((s for s in reversed(self.open) if s.keyword in wanted), None)
         if inner is None:
             place = "a loop" if keyword == "CONTINUE" else "a loop or $SWITCH"
-            id = "20245" if keyword == "CONTINUE" else "20242"
             message = f"${keyword} stands outside of {place}."
-            self.found.append(diagnostic(id, self.entries[at].span, message))
+            self.found.append(diagnostic(UNEXPECTED[keyword], self.entries[at].span, message))
             return
         self.statements[at] = inner
 
@@ -235,7 +259,8 @@ class _Builder:
             top = self.open[-1]
             message = f"{shown(keyword)} does not belong to {shown(top.keyword)}, which is open."
             notes = ((f"{shown(top.keyword)} begins here", self.entries[top.first].span),)
-        self.found.append(diagnostic("N1007", self.entries[at].span, message, notes=notes))
+        id = UNEXPECTED.get(keyword, "N1007")
+        self.found.append(diagnostic(id, self.entries[at].span, message, notes=notes))
         return None
 
 

@@ -50,10 +50,13 @@ PRECEDENCE: dict[str, int] = {
 _SIGN_PRECEDENCE = 11
 CONSTANTS: dict[str, float] = {"TRUE": 1.0, "FALSE": 0.0, "PI": 3.141592653589793}
 _BY_NAME = ("EXIST", "SIZEOF")
+_BY_MACRO = {"MACRO_LENGTH": "22254", "MACRO_CONTENT": "22275"}
 
 _OPERATOR = re.compile(
     r"[ \t\0\r]*(\*\*(?!=)|&&|\|\||[=!<>]=|[-+*/](?!=)|[&|^<>]|(?:MOD|XOR)(?!\w))", re.IGNORECASE
 )
+WORD_OPERATORS = {"AND": "&& (or & for bits)", "OR": "|| (or | for bits)"}
+_WORD_OPERATOR = re.compile(r"[ \t\0\r]+(AND|OR)(?![\w=])", re.IGNORECASE)
 _NUMBER = re.compile(r"[0-9]+(?:\.[0-9]*)?|\.[0-9]+")
 _STRING = re.compile(r'"((?:\\"|[^"])*)"')
 _PARAMETER = re.compile(r"[Pp](?=[0-9]|\[|[Pp][0-9\[])")
@@ -103,7 +106,7 @@ def _binary(cursor: Cursor, lowest: int) -> Expression:
     cursor.skip()
     start = cursor.at
     left = _unary(cursor)
-    while (found := cursor.looks_at(_OPERATOR)) is not None:
+    while (found := _operator(cursor)) is not None:
         operator = found.group(1).upper()
         strength = PRECEDENCE[operator]
         if strength < lowest:
@@ -113,6 +116,17 @@ def _binary(cursor: Cursor, lowest: int) -> Expression:
         right = _right_side(cursor, operator, strength)
         left = Binary(operator, left, right, cursor.span(start))
     return left
+
+
+def _operator(cursor: Cursor) -> re.Match[str] | None:
+    """The operator behind a term; a word that other languages have for one is a mistake."""
+    found = cursor.looks_at(_OPERATOR)
+    if found is None and (other := cursor.looks_at(_WORD_OPERATOR)) is not None:
+        name = other.group(1).upper()
+        hint = f"write {WORD_OPERATORS[name]}"
+        span = cursor.span(other.start(1), other.end())
+        raise cursor.mistake("20392", f"{name} is no operator.", hint, span)
+    return found
 
 
 def _right_side(cursor: Cursor, operator: str, strength: int) -> Expression:
@@ -201,11 +215,18 @@ def _function(cursor: Cursor, name: str, start: int) -> Function:
     if name in _BY_NAME and not isinstance(arguments[0], Variable | Parameter | CycleParameter):
         message = f"{name} needs a variable or parameter in brackets."
         raise cursor.mistake("20868", message, span=span)
+    if name in _BY_MACRO and not isinstance(arguments[0], Text):
+        message = f"{name} needs the name of a macro in quotation marks."
+        hint = f'write {name}["NAME"]'
+        raise cursor.mistake(_BY_MACRO[name], message, hint, arguments[0].span)
     return Function(name, arguments, span)
 
 
-def arguments_in_brackets(cursor: Cursor) -> tuple[Expression, ...]:
-    """arguments = "[" , expr , { "," , expr } , "]" ;"""
+def arguments_in_brackets(cursor: Cursor, unclosed: str = "20397") -> tuple[Expression, ...]:
+    """arguments = "[" , expr , { "," , expr } , "]" ;
+
+    unclosed: number of the mistake that the last bracket is missing.
+    """
     opening = cursor.at
     cursor.at += 1
     if cursor.skip() == "]":
@@ -216,7 +237,7 @@ def arguments_in_brackets(cursor: Cursor) -> tuple[Expression, ...]:
         if cursor.skip() == "]":
             raise cursor.mistake("20483", "A comma stands before the closing bracket.")
         result.append(expression(cursor))
-    close(cursor, opening, "20397")
+    close(cursor, opening, unclosed)
     return tuple(result)
 
 
@@ -281,7 +302,7 @@ def _indices(cursor: Cursor) -> tuple[Expression, ...]:
     """indices = { "[" , expr , { "," , expr } , "]" } ;  no blank before the bracket"""
     result: tuple[Expression, ...] = ()
     while cursor.char == "[":
-        result += arguments_in_brackets(cursor)
+        result += arguments_in_brackets(cursor, "21217")
     return result
 
 

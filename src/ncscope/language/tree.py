@@ -291,12 +291,13 @@ class Declaration:
 class Block:
     """One block: what stands in one line (or in lines joined by a backslash).
 
-    `skip` is the level of a leading `/` (1 for a plain one), None without. `ok` is False when the
-    parser reported an error in the block: it must not be executed.
+    `labels` are those of `N10: [NAME]`, in capitals, string labels with their brackets. `skip` is
+    the level of a leading `/` (1 for a plain one), None without. `ok` is False when the parser
+    reported an error in the block: it must not be executed.
     """
 
     number: Expression | None
-    label: str | None
+    labels: tuple[str, ...]
     skip: int | None
     words: tuple[Word, ...]
     commands: tuple[HashCommand, ...]

@@ -36,6 +36,7 @@ from ncscope.language.tree import (
     MacroDefinition,
     MWord,
     Number,
+    Parameter,
     SpindleWord,
     Unary,
     Word,
@@ -58,6 +59,7 @@ _SIGNED_DWELL = re.compile(r"[Gg]0*4(?=[ \t\0\r]+[-+])")
 _LONG_NAME = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*=(?!=)", re.ASCII)
 _AXIS_COMMAND = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*\[[ \t\0\r]*([A-Za-z]\w*)", re.ASCII)
 _ASSIGN = re.compile(r"[ \t\0\r]*([-+*/]?=)(?!=)")
+_NO_ASSIGNMENT = re.compile(r"[ \t\0\r]*([-+*/%&|^<>!:=]+)")
 _EQUALS = re.compile(r"[ \t\0\r]*=(?!=)")
 _SPINDLE = re.compile(r"[Ss](?:\.[A-Za-z_]\w*|\w+(?=[ \t\0\r]*=(?!=))|[0-9]+(?=[ \t\0\r]*\[))")
 _SPINDLE_BRACKET = re.compile(r"[Ss][ \t\0\r]*\[")
@@ -179,6 +181,8 @@ def _no_value(cursor: Cursor, start: int) -> Exception:
     end = max(cursor.written_end(), start + 1)
     name = cursor.code[start:end]
     hint = f"write a number or an expression behind {name.rstrip(' =')}"
+    if "(" in cursor.span(start, cursor.at + 1).text:
+        hint = "round brackets hold comments; write square brackets: [ ]"
     message = f"A value is missing after {name!r}."
     return cursor.mistake("N1002", message, hint, cursor.span(start, end))
 
@@ -244,6 +248,9 @@ def _places(cursor: Cursor) -> tuple[Expression | None, ...]:
     places = [_place(cursor)]
     while cursor.take(","):
         places.append(_place(cursor))
+    if cursor.skip() not in ("", "]"):
+        hint = "values stand between commas, for example G82 [5, 7.5]"
+        raise cursor.mistake("22151", f"{cursor.char!r} cannot stand between values.", hint)
     close(cursor, opening, "20198")
     return tuple(places)
 
@@ -313,13 +320,30 @@ def _assignment(cursor: Cursor) -> Assignment:
     left = target(cursor)
     found = cursor.match(_ASSIGN)
     if found is None:
-        name = cursor.code[start : cursor.at]
-        span = cursor.span(start)
-        hint = f"write {name} = and a value"
-        raise cursor.mistake("20194", f"{name} stands alone, without an assignment.", hint, span)
+        raise _not_assigned(cursor, left, start)
     if cursor.skip() == "" or (not starts_value(cursor) and not cursor.word()):
         raise _no_value(cursor, start)
     return Assignment(left, found.group(1), expression(cursor), cursor.span(start))
+
+
+def _not_assigned(cursor: Cursor, left: Expression, start: int) -> Exception:
+    name = cursor.code[start : cursor.at]
+    operator = cursor.looks_at(_NO_ASSIGNMENT)
+    if operator is not None:
+        message = f"{operator.group(1)} does not assign a value to {name}."
+        span = cursor.span(operator.start(1), operator.end())
+        return cursor.mistake("20573", message, "=, +=, -=, *= and /= assign", span)
+    id = "20182" if isinstance(left, Parameter) else "20194"
+    message = f"{name} stands alone, without an assignment."
+    return cursor.mistake(id, message, f"write {name} = and a value", cursor.span(start))
+
+
+def _parameter(cursor: Cursor) -> Word:
+    """A P that no number follows."""
+    if cursor.code[cursor.at + 1 : cursor.at + 2].isalnum():
+        raise _unknown(cursor)
+    hint = "write P1, without a blank and without a sign, or P[expression]"
+    raise cursor.mistake("20400", "P needs its number, which is greater than 0.", hint)
 
 
 def _macro(cursor: Cursor) -> Macro | MacroDefinition:
@@ -357,5 +381,6 @@ _BY_LETTER: dict[str, Callable[[Cursor], Word]] = {
     "M": _m_word,
     "S": _spindle,
     "L": _call,
+    "P": _parameter,
     **{letter: _address for letter in _ADDRESSES if letter.isupper()},
 }

@@ -14,7 +14,7 @@ from typing import Any
 
 from ncscope.diagnostics import Diagnostic, diagnostic
 from ncscope.lists.axes import UNITS
-from ncscope.lists.values import Reading
+from ncscope.lists.values import MACRO_TEXT, Reading
 from ncscope.machine import ChannelSettings, OffsetRecord, Tool, ZeroOffsets
 
 MM_PER_INCH = 25.4
@@ -23,6 +23,8 @@ ROTATION_SEQUENCES = frozenset(
 )
 
 CALLED_FILE = re.compile(r"(m6|g8[0-9]|g800)_prog_file(?:\[\])?")
+NESTED_QUOTE = re.compile(r'\\+"')
+"""The mark of a macro inside of a macro."""
 SUBPROGRAM_PATH = 2
 """The bit of path[].type that stands for subprograms."""
 
@@ -57,6 +59,7 @@ SETTINGS_OF_KEYS = {
     "cycle_changes_modal": "cycle_changes_stay",
     "start_init_prog_file": "start_file",
     "final_prog_file": "end_file",
+    "configuration.decoder.macro_symbol_len": "macro_name_length",
 }
 """List keys of the channel settings and their names in `ChannelSettings`."""
 ECS_WORDS = {"ecs_axis": ("X", "Y"), "ecs_plane": ("XY", "ZX", "YZ")}
@@ -140,6 +143,7 @@ def channel_settings(
         if name in SETTING_UNITS:
             values[name] /= SETTING_UNITS[name]
     values["called_files"] = _called_files(readings)
+    values["macros"] = _macros(readings)
     values["search_paths"] = _search_paths(readings)
     return ChannelSettings(**values), tuple(found)
 
@@ -154,6 +158,20 @@ def _called_files(readings: Iterable[Reading]) -> dict[str, str]:
         name = found.group(1).upper()
         files[f"G{800 + reading.indices[0]}" if name == "G800" else name] = reading.value
     return files
+
+
+def _macros(readings: Iterable[Reading]) -> dict[str, str]:
+    """The macros of the list. A text has blanks; it ends at a comment in round brackets."""
+    parts: dict[int, dict[str, str]] = defaultdict(dict)
+    for reading in readings:
+        if reading.row.key in ("makro_def[].symbol", MACRO_TEXT):
+            text = (reading.entry.value_text + reading.entry.rest).partition("(")[0].strip()
+            parts[reading.indices[0]][reading.field] = NESTED_QUOTE.sub('"', text)
+    return {
+        part["symbol"]: part.get("nc_code", "")
+        for _, part in sorted(parts.items())
+        if part.get("symbol")
+    }
 
 
 def _search_paths(readings: Iterable[Reading]) -> tuple[str, ...]:

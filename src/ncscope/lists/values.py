@@ -26,6 +26,8 @@ _MAX_DIGITS = 40
 
 _VARIABLE = re.compile(r"V\.(?:G\.)?KIN\[(?P<id>\d+)\]\.(?P<field>.+)", re.IGNORECASE)
 
+MACRO_TEXT = "makro_def[].nc_code"
+"""The entry whose value is an NC block, with blanks."""
 MEANT = {"inaktiv": "versch"}
 """An entry that is often written where the other one is meant."""
 
@@ -189,7 +191,7 @@ def _bad_number(entry: Entry, row: ParameterRow, expected: str) -> Diagnostic:
 
 def _text_after_string(entry: Entry, row: ParameterRow) -> tuple[Diagnostic, ...]:
     rest = entry.rest.strip()
-    if not rest or row.status == "-" or rest.startswith(("(", "#", "/*")):
+    if not rest or row.status == "-" or row.key == MACRO_TEXT or rest.startswith(("(", "#", "/*")):
         return ()
     message = f"text behind the value of {_named(entry, row)} is ignored"
     return (diagnostic("N3001", entry.value_span, message, "begin the comment with '('"),)

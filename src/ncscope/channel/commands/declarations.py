@@ -44,8 +44,8 @@ def delete(draft: Draft, command: tree.HashCommand) -> None:
 
 
 def clear_macros(draft: Draft, command: tree.HashCommand) -> None:
-    """#INIT MACRO TAB"""
-    draft.state = replace(draft.state, macros={})
+    """#INIT MACRO TAB: the macros of the channel list stay."""
+    draft.state = replace(draft.state, macros=draft.machine.settings.macros)
 
 
 COMMANDS = {
@@ -55,4 +55,5 @@ COMMANDS = {
     "ENDVAR": area,
     "DELETE": delete,
     "INIT MACRO TAB": clear_macros,
+    "INIT MAKRO TAB": clear_macros,
 }

@@ -1,0 +1,5 @@
+LL CYCLE [NAME=D @P1=1 @P1=2]
+M30
+%L D
+X@P1
+M17

@@ -1,0 +1,5 @@
+X5 LL CYCLE [NAME=D @P1=3]
+M30
+%L D
+Z@P1
+M17

@@ -1,0 +1,5 @@
+X1
+$FOR P1 = 1 5,1
+X2
+$ENDFOR
+M30

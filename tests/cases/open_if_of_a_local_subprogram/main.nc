@@ -1,0 +1,8 @@
+%L S
+$WHILE 0
+X2
+M17
+%MAIN
+X1
+LL S
+M30

@@ -1,0 +1,8 @@
+%L S
+$IF 1
+G91 X2
+M17
+%MAIN
+LL S
+LL S
+M30

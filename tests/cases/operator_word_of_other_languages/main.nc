@@ -1,0 +1,5 @@
+P1=1
+$IF P1==1 AND P1<3
+X1
+$ENDIF
+M30

@@ -1,0 +1,5 @@
+#VAR
+V.P.A[3]
+#ENDVAR
+V.P.A[2 = 5
+M30
