@@ -141,10 +141,7 @@ def _collect(draft: Draft, collected: Words, words: tuple[tree.Word, ...], depth
             case tree.GWord():
                 _collect_g(draft, collected, word)
             case tree.MWord():
-                number = round(evaluate_number(draft, word.number))
-                collected.mfunctions[number] = word.span
-                if number in (17, 29):
-                    draft.returned = calls.returned(draft, word)
+                _collect_m(draft, collected, word)
             case tree.AddressWord():
                 _collect_address(draft, collected, word)
             case tree.AxisWord():
@@ -159,6 +156,22 @@ def _collect(draft: Draft, collected: Words, words: tuple[tree.Word, ...], depth
             case tree.Macro():
                 with macros.used(word):
                     _collect(draft, collected, macros.words(draft, word, depth), depth + 1)
+
+
+RETURNS = (17, 29)
+ENDS = (2, 30, *RETURNS)
+
+
+def _collect_m(draft: Draft, collected: Words, word: tree.MWord) -> None:
+    number = round(evaluate_number(draft, word.number))
+    for other in ENDS:
+        if number in ENDS and other in collected.mfunctions:
+            notes = (("the other one", collected.mfunctions[other]),)
+            what = f"M{number:02d} and M{other:02d} cannot stand in one block"
+            draft.fail("20158", word.span, what, notes=notes)
+    collected.mfunctions[number] = word.span
+    if number in RETURNS:
+        draft.returned = calls.returned(draft, word)
 
 
 def _collect_g(draft: Draft, collected: Words, word: tree.GWord) -> None:

@@ -52,12 +52,24 @@ def _is_given(draft: Draft, ref: Reference) -> float:
     return float(ref.numbers[0] in held)
 
 
+def _unlike(why: str) -> Callable[[Draft, Reference], float]:
+    """A variable that a control has, and that is another one in every run."""
+
+    def read(draft: Draft, ref: Reference) -> float:
+        draft.refuse(ref.span, f"{ref.text} ({why})")
+
+    return read
+
+
 def _program_name(draft: Draft, ref: Reference) -> str:
     return draft.state.running.file.rpartition("/")[2]
 
 
 PROGRAM_ROWS: dict[str, Row] = {
     "V.G.@P[].VALID": Row(_is_given, None, "1 where the call of the cycle gave @P"),
+    "V.G.TIMER": Row(_unlike("the clock of the control"), None, "refused: a clock"),
+    "V.G.TIMER[]": Row(_unlike("the clock of the control"), None, "refused: a clock"),
+    "V.G.RANDOM": Row(_unlike("another value at each run"), None, "refused: a random number"),
     "V.G.PROG_LEVEL": Row(
         lambda d, r: float(d.state.running.level), None, "depth of calls, 0 in the main program"
     ),

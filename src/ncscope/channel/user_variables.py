@@ -195,18 +195,21 @@ def size(
     numbers: tuple[int, ...],
     dimension: int,
 ) -> int:
-    """SIZEOF: the length of one dimension of an array, 1 for a single value."""
+    """SIZEOF: the length of one dimension of an array, 1 for a single value.
+
+    Dimensions count from 1.
+    """
     if isinstance(node, tree.CycleParameter) or not is_user(node):
         draft.fail("20392", node.span, "SIZEOF needs a variable of the program")
     key, _ = _resolve(draft, node, numbers)
     stored = draft.state.variables.get(key)
     if stored is None:
         draft.fail("20932", node.span, f"the variable {key} does not exist")
-    if not stored.dimensions:
-        return 1
-    if not 0 <= dimension < len(stored.dimensions):
-        draft.fail("20906", node.span, f"{key} has {len(stored.dimensions)} dimensions")
-    return stored.dimensions[dimension]
+    sizes = stored.dimensions or (1,)
+    if not 1 <= dimension <= len(sizes):
+        hint = "dimensions count from 1"
+        draft.fail("20918", node.span, f"{key} has no dimension {dimension}", hint)
+    return sizes[dimension - 1]
 
 
 def _store(draft: Draft, key: str, stored: Stored) -> None:

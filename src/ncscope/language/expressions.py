@@ -247,7 +247,7 @@ def _query(node: Function) -> Compiled:
     dimension = _compile_number(node.arguments[1]) if len(node.arguments) > 1 else None
 
     def size(environment: Environment) -> float:
-        wanted = rounded(dimension(environment)) if dimension else 0
+        wanted = rounded(dimension(environment)) if dimension else 1
         return float(environment.size(target, indices_of(target, environment), wanted))
 
     return size

@@ -99,7 +99,7 @@ def rounded(x: float) -> int:
     return math.floor(abs(x) + 0.5) * (1 if x >= 0 else -1)
 
 
-def _character(text: str, position: float) -> float:
+def _character(text: str, position: float = 1.0) -> float:
     at = rounded(position)
     if not 1 <= at <= len(text):
         raise NoValue("N1006", f"The string has no position {at}.")
@@ -175,7 +175,7 @@ FUNCTIONS: dict[str, Entry] = {
     "RIGHT": Entry(2, 2, "sn", _right),
     "LEN": Entry(1, 1, "s", len),
     "FIND": Entry(2, 2, "ss", lambda text, part: text.find(part) + 1),
-    "ORD": Entry(2, 2, "sn", _character),
+    "ORD": Entry(1, 2, "sn", _character),
     "INSERT": Entry(3, 3, "ssn", _insert),
     "DELETE": Entry(3, 3, "snn", _delete),
     "REPLACE": Entry(4, 4, "ssnn", _replace),

@@ -134,7 +134,7 @@ class BlockReader:
         if block.header is not None:
             self._in_sub = _is_local(block.header)
             block, found = _checked_header(block, found, self._in_main)
-        self._in_main = self._in_main or not self._in_sub
+        self._in_main = self._in_main or not (self._in_sub or is_comment(block))
         return block, found
 
     def _comment(self, block: Block, found: Diagnostics) -> Iterator[tuple[Block, Diagnostics]]:
@@ -340,6 +340,11 @@ def _has_no_line_end(source: Source) -> bool:
 def _no_line_end(source: Source) -> Diagnostic:
     hint = "save the file with line ends CR LF or LF; in this one they are CR alone"
     return diagnostic("20301", Span(source, 0, 1), "The file has no end of line.", hint)
+
+
+def is_comment(block: Block) -> bool:
+    """#COMMENT BEGIN and #COMMENT END, which may stand outside of programs."""
+    return any(command.name.startswith("COMMENT ") for command in block.commands)
 
 
 def _is_local(header: str) -> bool:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
-from ncscope.language.parser import iterate_blocks
+from ncscope.language.parser import is_comment, iterate_blocks
 from ncscope.language.tree import Block, Call, Control
 
 Diagnostics = tuple[Diagnostic, ...]
@@ -144,7 +144,8 @@ def _levels(entries: tuple[Entry, ...]) -> tuple[Level | None, dict[str, Level]]
     """The main program and the subprograms; of two with one name the first counts."""
     heads = [i for i, e in enumerate(entries) if e.block.header is not None]
     first = heads[0] if heads else len(entries)
-    main: Level | None = (0, first) if first else None
+    nameless = not heads or not all(is_comment(e.block) for e in entries[:first])
+    main: Level | None = (0, first) if first and nameless else None
     subprograms: dict[str, Level] = {}
     for at, stop in zip(heads, [*heads[1:], len(entries)], strict=False):
         header = entries[at].block.header or ""

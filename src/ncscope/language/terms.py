@@ -53,10 +53,11 @@ _BY_NAME = ("EXIST", "SIZEOF")
 _BY_MACRO = {"MACRO_LENGTH": "22254", "MACRO_CONTENT": "22275"}
 
 _OPERATOR = re.compile(
-    r"[ \t\0\r]*(\*\*(?!=)|&&|\|\||[=!<>]=|[-+*/](?!=)|[&|^<>]|(?:MOD|XOR)(?!\w))", re.IGNORECASE
+    r"[ \t\0\r]*(\*\*(?!=)|&&|\|\||[=!<>]=|[-+*/](?!=)|[&|^>]|<(?!>)|(?:MOD|XOR)(?!\w))",
+    re.IGNORECASE,
 )
-WORD_OPERATORS = {"AND": "&& (or & for bits)", "OR": "|| (or | for bits)"}
-_WORD_OPERATOR = re.compile(r"[ \t\0\r]+(AND|OR)(?![\w=])", re.IGNORECASE)
+WORD_OPERATORS = {"AND": "&& (or & for bits)", "OR": "|| (or | for bits)", "<>": "!="}
+_WORD_OPERATOR = re.compile(r"[ \t\0\r]+(AND|OR)(?![\w=])|[ \t\0\r]*(<>)", re.IGNORECASE)
 _NUMBER = re.compile(r"[0-9]+(?:\.[0-9]*)?|\.[0-9]+")
 _STRING = re.compile(r'"((?:\\"|[^"])*)"')
 _PARAMETER = re.compile(r"[Pp](?=[0-9]|\[|[Pp][0-9\[])")
@@ -122,9 +123,9 @@ def _operator(cursor: Cursor) -> re.Match[str] | None:
     """The operator behind a term; a word that other languages have for one is a mistake."""
     found = cursor.looks_at(_OPERATOR)
     if found is None and (other := cursor.looks_at(_WORD_OPERATOR)) is not None:
-        name = other.group(1).upper()
+        name = other.group(other.lastindex or 0).upper()
         hint = f"write {WORD_OPERATORS[name]}"
-        span = cursor.span(other.start(1), other.end())
+        span = cursor.span(other.end() - len(name), other.end())
         raise cursor.mistake("20392", f"{name} is no operator.", hint, span)
     return found
 
@@ -246,6 +247,8 @@ def close(cursor: Cursor, opening: int, id: str) -> None:
     if not cursor.take("]"):
         line, column = cursor.source.position(cursor.base + opening)
         hint = f"the bracket was opened at line {line}, column {column}"
+        if cursor.char == "=":
+            hint = "two equals signs compare: =="
         raise cursor.mistake(id, "A closing bracket ']' is missing here.", hint)
 
 

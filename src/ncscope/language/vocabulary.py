@@ -110,6 +110,10 @@ WORDS: tuple[Entry, ...] = (
     Entry("V.TOOL.", "refused", "Data of the tool management."),
     Entry("V.TLM.", "refused", "Tool life."),
     Entry("V.SPDL.", "refused", "Variables of the spindles."),
+    Entry("V.RTA.", "refused", "Values of an axis at run time."),
+    Entry("V.RTG.", "refused", "Values of the channel at run time."),
+    Entry("V.I.", "refused", "Variables of the interpolator."),
+    Entry("V.CH.", "refused", "Variables of another channel."),
     Entry("V.SPDL_PROG.", "refused", "Variables of the programmed spindle."),
 )
 # fmt: on

@@ -1,0 +1,11 @@
+#COMMENT BEGIN
+%NOT THIS
+#COMMENT END
+(and a comment)
+%L S
+X5
+M17
+%MAIN
+X1
+LL S
+M30

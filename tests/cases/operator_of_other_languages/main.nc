@@ -1,0 +1,5 @@
+P1=1
+$WHILE P1 <> 3
+P1=P1+1
+$ENDWHILE
+M30

@@ -1,0 +1,50 @@
+%ALIGN (touch an edge, fit a line, turn the coordinate system)
+N10 #VAR
+N20   V.P.TOUCH[10]
+N30   V.P.N      : UNS08 = 4
+N40   V.P.SX = 0  V.P.SY = 0
+#ENDVAR
+N50 G90 G00 X10 Y-5 Z-4
+N60 L CYCLE [NAME=probe_line.cyc @P1=V.P.N @P2=-5 @P3=20 @P4=30 @P5=3]
+; least squares: y = a + b*x
+N70 V.P.SXX=0 V.P.SXY=0
+N80 $FOR P1 = 0, V.P.N-1, 1
+N90   V.P.SX += P1*30
+N100  V.P.SY += V.P.TOUCH[P1]
+N110  V.P.SXX += SQR[P1*30]
+N120  V.P.SXY += P1*30*V.P.TOUCH[P1]
+N130 $ENDFOR
+N140 V.P.B = [V.P.N*V.P.SXY - V.P.SX*V.P.SY] / [V.P.N*V.P.SXX - SQR[V.P.SX]]
+N150 V.P.A = [V.P.SY - V.P.B*V.P.SX] / V.P.N
+N160 V.P.ANGLE = ATAN2[V.P.B, 1]
+; largest touch by a bubble sort of a copy
+N170 #VAR
+N180   V.P.S[10]
+N190 #ENDVAR
+N200 $FOR P1 = 0, V.P.N-1, 1
+N210   V.P.S[P1] = V.P.TOUCH[P1]
+N220 $ENDFOR
+N230 $FOR P1 = 0, V.P.N-2, 1
+N240   $FOR P2 = 0, V.P.N-2-P1, 1
+N250     $IF V.P.S[P2] > V.P.S[P2+1]
+N260       P3=V.P.S[P2] V.P.S[P2]=V.P.S[P2+1] V.P.S[P2+1]=P3
+N270     $ENDIF
+N280   $ENDFOR
+N290 $ENDFOR
+N300 #MSG SAVE EXCLUSIVE ["angle %f, range %f", V.P.ANGLE, V.P.S[V.P.N-1]-V.P.S[0]]
+N310 $IF ABS[V.P.ANGLE] > 5
+N320   #ERROR [ID=2 RC=2 MID=1]
+N330 $ELSEIF ABS[V.P.ANGLE] > 0.001
+N340   #CS ON [10, V.P.A, 0, 0, 0, V.P.ANGLE]
+N350 $ELSE
+N360   #CS ON [10, V.P.A, 0, 0, 0, 0]
+N370 $ENDIF
+N380 G00 X0 Y0 Z2
+N390 G01 X90 F500
+N400 #CS OFF
+N410 G00 X0 Y0
+N420 #DELETE V.P.S, V.P.TOUCH
+N430 $IF EXIST[V.P.S[0]] || EXIST[V.P.TOUCH]
+N440   X999
+N450 $ENDIF
+N460 M30

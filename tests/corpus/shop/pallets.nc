@@ -1,0 +1,62 @@
+; Palettenprogramm: 2 x 3 Nester, Belegung kommt von der SPS
+%L NEXT_FREE (search the next nest that is occupied: result in V.P.NEST, -1 = none)
+N10 #VAR
+N11   V.L.I : SGN16
+N12   V.L.FOUND : BOOLEAN
+N13 #ENDVAR
+N20 V.L.I = V.P.NEST
+N30 $REPEAT
+N40   V.L.I += 1
+N50   $IF V.L.I >= SIZEOF[V.E.OCCUPIED]
+N60     V.P.NEST = -1
+N70     M17
+N80   $ENDIF
+N90   V.L.FOUND = V.E.OCCUPIED[V.L.I]
+N100 $UNTIL V.L.FOUND
+N110 V.P.NEST = V.L.I
+N120 M17
+
+%L FIXTURE
+; zero offset group 2 holds the corner of the nest
+N10 P10 = INT[V.P.NEST / 3]          (row)
+N20 P11 = V.P.NEST MOD 3             (column)
+N30 V.G.NP[2].V.X = 50 + P11 * 120.5
+N40 V.G.NP[2].V.Y = 40 + P10*200
+N50 V.G.NP[2].V.Z = 12.25
+N60 $IF P10 == 1
+N65   V.G.NP[2].V.Z = 12.75
+N70 $ENDIF
+N80 G55
+N90 M17
+
+%PALLET_2x3
+N10 G53 G90 G00 Z200
+N20 V.P.NEST = -1 V.P.DONE = 0 V.P.LOST = 0
+[NEXT]
+N30 LL NEXT_FREE
+N40 $IF V.P.NEST < 0 $GOTO [END]
+N50 LL FIXTURE
+N60 $SWITCH V.E.KIND[V.P.NEST]
+N70   $CASE 1
+N80     "PROG" = "part_a.nc"
+N90     $BREAK
+N100  $CASE 2
+N110  $CASE 3
+N120    "PROG" = "part_b.nc"
+N130    P20 = V.E.KIND[V.P.NEST] * 10
+N140    $BREAK
+N150  $DEFAULT
+N160    V.P.LOST += 1
+N170    #MSG SAVE EXCLUSIVE ["nest %d: kind %d unknown", V.P.NEST, V.E.KIND[V.P.NEST]]
+N180    $GOTO [NEXT]
+N190 $ENDSWITCH
+N200 L "PROG"
+N210 V.P.DONE = V.P.DONE + 1
+N220 $GOTO [NEXT]
+[END] N230 G53 Z200
+N240 X0 Y0
+N250 #MSG SAVE EXCLUSIVE ["%d done, %d unknown", V.P.DONE, V.P.LOST]
+N260 $IF V.P.DONE == 0
+N270   #ERROR [ID=100 RC=2 MID=1]
+N280 $ENDIF
+N290 M30

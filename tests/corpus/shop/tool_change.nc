@@ -1,0 +1,34 @@
+%TOOL_CHANGE
+#VAR
+ V.L.NEW : SGN16
+ V.L.OLD : SGN16 = 0
+#ENDVAR
+$IF EXIST[V.S.LOADED]
+  V.L.OLD = V.S.LOADED
+$ENDIF
+V.L.NEW = V.G.T_AKT
+$IF V.L.NEW == V.L.OLD
+  M17              (nothing to do)
+$ENDIF
+$IF V.L.NEW < 1 || V.L.NEW > 12
+  #ERROR [ID=300 RC=2 MID=1 PV1=V.L.NEW]
+$ENDIF
+"HOME"
+D0
+$IF V.L.OLD > 0
+  LL POCKET
+$ENDIF
+V.S.LOADED = V.L.NEW
+LL POCKET
+DV.S.LOADED
+V.S.CHANGES += 1
+#MSG SAVE EXCLUSIVE ["T%d -> T%d, length %f", V.L.OLD, V.L.NEW, V.G.WZ_AKT.L]
+M17
+%L POCKET
+; pockets stand in a row at Y=-300, 80 mm apart, in machine coordinates
+G53 G00 X[100 + 80*[V.S.LOADED-1]] Y-200
+Z350
+G01 Y-300 F5000
+G00 Z400
+Y-200
+M17
