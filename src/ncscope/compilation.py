@@ -1,26 +1,44 @@
 """Compiled loops: the one place that knows numba.
 
-numba is loaded when the first compiled function is called, not when it is defined, so that a run
-that needs none starts without it. Machine code is kept on disk; only the first run on a machine
-compiles, and `when_compiling` tells of it.
+numba takes longer to load than a short program takes to run. So it is loaded when a loop has
+enough to do, not when a loop is defined: a few rows are computed by the same functions as Python.
+They use nothing but what gives the same bits in both: + - * /, square roots, roundings and the
+functions of the C library behind `math`. Machine code is kept on disk; only the first run on a
+machine compiles, and `when_compiling` tells of it.
 """
 
 from __future__ import annotations
 
+import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar, cast
+
+import numpy as np
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+MANY_ROWS = 100
+"""Rows of one call from which machine code is used."""
+MANY_CALLS = 20_000
+"""Calls, those of compiled functions among themselves included, after which it is used anyway:
+about 2,000 poses, which take as long as numba takes to load."""
+
 
 def compiled(function: Function) -> Function:
-    """The function as machine code, compiled at its first call and cached on disk."""
+    """The function as machine code once it is worth it; cached on disk."""
     if _loaded:
         return cast(Function, _loaded[0](function))
     waiting = _Waiting(function)
     _all_waiting.append(waiting)
     return cast(Function, waiting)
+
+
+def load() -> None:
+    """Machine code from here on: for work that is known to be long."""
+    with _lock:
+        _load()
 
 
 def when_compiling(listener: Callable[[], None] | None) -> None:
@@ -36,16 +54,25 @@ class _Waiting:
     """A function before numba is loaded. Compiled functions call each other by their names in
     their modules, so all names are given to the machine code at once."""
 
+    calls = 0
+
     def __init__(self, function: Callable[..., Any]) -> None:
         self.function = function
         self.code: Callable[..., Any] | None = None
 
     def __call__(self, *arguments: Any) -> Any:
         if self.code is None:
-            with _lock:
-                _load()
+            _Waiting.calls += 1
+            if _Waiting.calls <= MANY_CALLS and not _many(arguments):
+                with np.errstate(all="ignore"):
+                    return self.function(*arguments)
+            load()
         assert self.code is not None
         return self.code(*arguments)
+
+
+def _many(arguments: tuple[Any, ...]) -> bool:
+    return any(isinstance(a, np.ndarray) and len(a) > MANY_ROWS for a in arguments)
 
 
 _lock = threading.Lock()
@@ -55,10 +82,12 @@ _listeners: list[Callable[[], None]] = []
 
 
 def _load() -> None:
-    from numba import njit
-
     if not _all_waiting:  # another thread was faster
         return
+    with _without_scipy():
+        import numba.np.arraymath
+    from numba import njit
+
     _loaded.append(njit(cache=True, error_model="numpy", nogil=True))
     for waiting in _all_waiting:
         waiting.code = _loaded[0](waiting.function)
@@ -67,6 +96,18 @@ def _load() -> None:
         names.update({n: v.code for n, v in names.items() if isinstance(v, _Waiting)})
     _all_waiting.clear()
     _listen()
+
+
+@contextmanager
+def _without_scipy() -> Iterator[None]:
+    """numba loads scipy only to see whether `np.cov` could be compiled; that takes longer than
+    everything else it loads."""
+    absent = "scipy" not in sys.modules and sys.modules.setdefault("scipy", cast(Any, None)) is None
+    try:
+        yield
+    finally:
+        if absent:
+            del sys.modules["scipy"]
 
 
 def _listen() -> None:

@@ -62,8 +62,8 @@ class Contour:
     mirror_origin: str | None = None
 
     def apply(self, values: ArrayLike) -> Array:
-        """Contour values (..., n) of programmed values (..., n)."""
-        result = np.array(values, dtype=float)
+        """Contour values (..., n) of programmed values (..., n); these themselves without a step."""
+        result = np.asarray(values, dtype=float)
         for step in self.steps():
             result = step.apply(result)
         return result

@@ -142,7 +142,7 @@ class Coordinates:
     def to_mcs(self, program: ArrayLike) -> Array:
         """Tool tip in the Cartesian machine system; axes beyond the third with their offsets."""
         values = self.contour.apply(self._mapped(program))
-        return self._affine(values, self.mcs_frame, self._offset_total)
+        return transformed(values, *self._to_mcs)
 
     def to_wcs(self, program: ArrayLike) -> Array:
         """The same point with all coordinate systems undone, without the offsets of level 0."""
@@ -150,12 +150,8 @@ class Coordinates:
 
     def program_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Programmed values (..., n) of a tool tip (..., n) in the machine system."""
-        result = np.array(mcs, dtype=float)
-        n = min(3, self.axis_count)
-        result[..., 3:] -= self._offset_total[3:]
-        back = self._main(self.mcs_frame.inverse)
-        result[..., :n] = transformed(result[..., :n], *back)
-        return self.shown(self._unmapped(self.contour.invert(result), near))
+        values = transformed(mcs, *self._from_mcs)
+        return self.shown(self._unmapped(self.contour.invert(values), near))
 
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Axis positions (..., n) for a tool tip (..., n) in the machine system."""
@@ -294,16 +290,18 @@ class Coordinates:
         """Per-axis sum of the offsets of all levels; counts for the axes beyond the third."""
         return np.sum([self._total(level) for level in self.levels], axis=0)
 
-    def _affine(self, program: ArrayLike, frame: Frame, total: Array) -> Array:
-        result = np.array(program, dtype=float)
-        n = min(3, self.axis_count)
-        result[..., :n] = transformed(result[..., :n], *self._main(frame))
-        result[..., 3:] += total[3:]
-        return result
+    @cached_property
+    def _to_mcs(self) -> tuple[Array, Array]:
+        return self._all_columns(self.mcs_frame, self._offset_total)
 
-    def _main(self, frame: Frame) -> tuple[Array, Array]:
+    @cached_property
+    def _from_mcs(self) -> tuple[Array, Array]:
+        return self._all_columns(self.mcs_frame.inverse, -self._offset_total)
+
+    def _all_columns(self, frame: Frame, total: Array) -> tuple[Array, Array]:
+        """Rotation of the main axes, and shift of all: of the others by their offsets."""
         n = min(3, self.axis_count)
-        return frame.rotation[:n, :n], frame.shift[:n]
+        return frame.rotation[:n, :n], np.append(frame.shift[:n], total[3:])
 
     @property
     def _turn(self) -> Array | None:

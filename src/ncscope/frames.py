@@ -13,6 +13,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ncscope.compilation import compiled
+
 Array = NDArray[np.float64]
 
 ROTATION_SEQUENCES = (
@@ -131,15 +133,29 @@ def axes_in_plane(direction: ArrayLike, kind: str, plane: str) -> Array:
     return np.column_stack([np.cross(-first, z), -first, z])
 
 
-def transformed(points: Array, rotation: Array, shift: Array) -> Array:
-    """rotation @ point + shift for points (..., n), summed in one order so that one row and a
-    million agree to the last bit."""
-    n = points.shape[-1]
-    if n == 0:  # all axes have left the channel
-        return points
-    if (rotation == np.eye(n)).all():
-        return points + shift
-    result = np.empty_like(points)
-    for i in range(n):
-        result[..., i] = sum(rotation[i, j] * points[..., j] for j in range(n)) + shift[i]
+def transformed(points: ArrayLike, rotation: Array, shift: Array) -> Array:
+    """rotation @ point + shift for points (..., n), a new array.
+
+    rotation: (k, k) with k <= n; columns beyond it are shifted only. shift: (n,). Summed in one
+    order, so that one row and a million agree to the last bit.
+    """
+    values = np.asarray(points, dtype=float)
+    if (rotation == np.eye(len(rotation))).all():
+        return values + shift
+    rows = np.require(values, requirements=["C", "W"]).reshape(-1, values.shape[-1])
+    result = np.empty(values.shape)
+    _transform_rows(rows, np.array(rotation, order="C"), shift, result.reshape(rows.shape))
     return result
+
+
+@compiled
+def _transform_rows(rows, rotation, shift, result):
+    turned, columns = rotation.shape[0], rows.shape[1]
+    for row in range(rows.shape[0]):
+        for i in range(turned):
+            total = 0.0
+            for j in range(turned):
+                total += rotation[i, j] * rows[row, j]
+            result[row, i] = total + shift[i]
+        for i in range(turned, columns):
+            result[row, i] = rows[row, i] + shift[i]

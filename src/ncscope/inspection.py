@@ -331,19 +331,17 @@ def _pole(s: Stretch) -> Pole | None:
 
 def _swings(pole: Pole, s: Stretch, row: int) -> list[Swing]:
     """Runs of moves in which the first rotary axis turns far and the tool direction does not."""
-    turn = np.diff(s.acs[:, pole.first], prepend=s.start[pole.first])
-    if not pole.model.rtcp:
-        turn = _short_way(turn)
-    near = pole.distance(_with_start(s, pole.second)) < NEAR_POLE
-    suspect = near[1:] | near[:-1] | (np.abs(turn) >= SMALLEST_SWING)
-    moves = np.flatnonzero(suspect & (turn != 0.0))
+    moves = pole.turning_near(s.start, s.acs, NEAR_POLE, SMALLEST_SWING)
     if len(moves) == 0:
         return []
     start = np.where(moves[:, None] > 0, s.acs[moves - 1], s.start)
     end = s.acs[moves]
+    turn = end[:, pole.first] - start[:, pole.first]
+    if not pole.model.rtcp:
+        turn = _short_way(turn)
     distance = pole.closest(start, end)
     change = pole.tilt(start, end)
-    turn = np.abs(turn[moves])
+    turn = np.abs(turn)
     far = turn >= SWING_RATIO * change
     if not pole.model.rtcp:  # nobody asked for the turn, however far the tool tilts besides
         leaves = pole.distance(np.stack([start, end])[..., pole.second]).min(axis=0)

@@ -44,7 +44,7 @@ def sincos_deg(angle):
     c = z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * _C6))
     c = z * (-1.38888888888741095749e-03 + z * (2.48015872894767294178e-05 + c))
     c = 1.0 - (0.5 * z - z * z * (4.16666666666666019037e-02 + c))
-    quadrant = turns - 4.0 * math.floor(turns / 4.0)
+    quadrant = turns - 4.0 * np.floor(turns / 4.0)
     if quadrant == 1.0:
         return c, -s
     if quadrant == 2.0:

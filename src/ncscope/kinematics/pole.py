@@ -14,10 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ncscope.compilation import compiled
+from ncscope.kinematics.kernels import sincos_deg
 from ncscope.kinematics.orientation import OrientationSolver
 from ncscope.kinematics.universal import UniversalKinematics
 
 Array = NDArray[np.float64]
+Rows = NDArray[np.int64]
 
 _SMALLEST_NORMAL = 1e-12
 
@@ -59,10 +62,36 @@ class Pole:
         second: (...) positions of the second rotary axis, degrees. Good to 1e-6 degrees at the
         pole itself, where the cosine has lost half of its digits.
         """
-        turn = np.deg2rad(second - self.turning_point)
-        middle = math.cos(self.between_rad) * math.cos(self.lean_rad)
-        cosine = middle + math.sin(self.between_rad) * math.sin(self.lean_rad) * np.cos(turn)
+        middle, sway = self._cosine
+        cosine = middle + sway * np.cos(np.deg2rad(second - self.turning_point))
         return np.rad2deg(np.arccos(np.minimum(np.abs(cosine), 1.0)))
+
+    def turning_near(self, start: Array, axes: Array, near: float, turn: float) -> Rows:
+        """The moves (k,) that turn the first axis, and begin or end nearer than `near` degrees to
+        the singular direction, or turn it by `turn` degrees or more.
+
+        start: (n,) axis values before the first move. axes: (m, n) at the end of each.
+        """
+        middle, sway = self._cosine
+        found = np.zeros(len(axes), np.bool_)
+        _turning_near(
+            np.require(start, requirements=["C", "W"]),
+            np.require(axes, requirements=["C", "W"]),
+            (self.first, self.second),
+            (self.turning_point, middle, sway, math.cos(math.radians(near)), turn),
+            not self.model.rtcp,
+            found,
+        )
+        return np.flatnonzero(found)
+
+    @property
+    def _cosine(self) -> tuple[float, float]:
+        """The cosine of the angle between tool and first axis is the first of these, and the
+        second times the cosine of the second axis beyond its turning point."""
+        return (
+            math.cos(self.between_rad) * math.cos(self.lean_rad),
+            math.sin(self.between_rad) * math.sin(self.lean_rad),
+        )
 
     def closest(self, start: Array, end: Array) -> Array:
         """Smallest distance (m,) on the way between axis values start and end, each (m, n).
@@ -100,3 +129,19 @@ class Pole:
             inside |= behind & before
         inside &= length > _SMALLEST_NORMAL
         return np.where(inside, np.rad2deg(np.arcsin(np.minimum(np.abs(height), 1.0))), np.inf)
+
+
+@compiled
+def _turning_near(start, axes, columns, bounds, short_way, found):
+    """Marks the moves of `Pole.turning_near`; short_way: a turn is never more than 180 degrees."""
+    first, second = columns
+    turning_point, middle, sway, near, far = bounds
+    before = start[first]
+    was_near = abs(middle + sway * sincos_deg(start[second] - turning_point)[1]) > near
+    for row in range(axes.shape[0]):
+        turn = axes[row, first] - before
+        if short_way:
+            turn -= 360.0 * np.rint(turn / 360.0)
+        is_near = abs(middle + sway * sincos_deg(axes[row, second] - turning_point)[1]) > near
+        found[row] = turn != 0.0 and (is_near or was_near or abs(turn) >= far)
+        before, was_near = axes[row, first], is_near

@@ -21,6 +21,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ncscope.compilation import compiled
 from ncscope.kinematics.kernels import NOT_FINITE, OK, UNREACHABLE, ZERO_VECTOR, sincos_deg
 
@@ -41,7 +43,7 @@ def wrap_deg(angle):
     """The same angle in (-180, 180]; within 1e-9 of -180 it counts as 180."""
     if -180.0 + SNAP_DEG < angle <= 180.0:
         return angle
-    wrapped = angle - 360.0 * math.floor((angle + 180.0) / 360.0)
+    wrapped = angle - 360.0 * np.floor((angle + 180.0) / 360.0)
     return 180.0 if wrapped <= -180.0 + SNAP_DEG else wrapped
 
 
