@@ -3,8 +3,9 @@
 numba takes longer to load than a short program takes to run. So it is loaded when a loop has
 enough to do, not when a loop is defined: a few rows are computed by the same functions as Python.
 They use nothing but what gives the same bits in both: + - * /, square roots, roundings and the
-functions of the C library behind `math`. Machine code is kept on disk; only the first run on a
-machine compiles, and `when_compiling` tells of it.
+functions of the C library behind `math`. They write into arrays that they are given and make
+none, so that numba need not count references at each call (`_nrt`). Machine code is kept on
+disk; only the first run on a machine compiles, and `when_compiling` tells of it.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -85,10 +87,11 @@ def _load() -> None:
     if not _all_waiting:  # another thread was faster
         return
     with _without_scipy():
-        import numba.np.arraymath
+        import_module("numba.np.arraymath")
     from numba import njit
 
-    _loaded.append(njit(cache=True, error_model="numpy", nogil=True))
+    options: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
+    _loaded.append(njit(**options))
     for waiting in _all_waiting:
         waiting.code = _loaded[0](waiting.function)
     for waiting in _all_waiting:

@@ -62,7 +62,7 @@ class Contour:
     mirror_origin: str | None = None
 
     def apply(self, values: ArrayLike) -> Array:
-        """Contour values (..., n) of programmed values (..., n); these themselves without a step."""
+        """Contour values (..., n) of programmed values (..., n), themselves without a step."""
         result = np.asarray(values, dtype=float)
         for step in self.steps():
             result = step.apply(result)

@@ -71,12 +71,7 @@ def forward_rows(joints, flange, linkage, axes, tool_length, tip, direction):
 
     The chain is walked from the tool to the workpiece; T(q) = E_chain[0] ... E_chain[n-1].
     """
-    moved = np.empty(3)
     for row in range(axes.shape[0]):
-        for i in range(3):
-            moved[i] = linkage[i, 3]
-            for j in range(3):
-                moved[i] += linkage[i, j] * axes[row, j]
         dx, dy, dz = flange[0, 0], flange[0, 1], flange[0, 2]
         x = flange[1, 0] - tool_length * dx
         y = flange[1, 1] - tool_length * dy
@@ -85,9 +80,12 @@ def forward_rows(joints, flange, linkage, axes, tool_length, tip, direction):
             kx, ky, kz = joints[k, 1], joints[k, 2], joints[k, 3]
             axis = int(joints[k, 7])
             if joints[k, 0] == 1.0:
-                x += moved[axis] * kx
-                y += moved[axis] * ky
-                z += moved[axis] * kz
+                moved = linkage[axis, 3]
+                for j in range(3):
+                    moved += linkage[axis, j] * axes[row, j]
+                x += moved * kx
+                y += moved * ky
+                z += moved * kz
             else:
                 s, c = sincos_deg(axes[row, axis])
                 px, py, pz = joints[k, 4], joints[k, 5], joints[k, 6]
@@ -98,7 +96,6 @@ def forward_rows(joints, flange, linkage, axes, tool_length, tip, direction):
         direction[row, 0], direction[row, 1], direction[row, 2] = dx, dy, dz
 
 
-@compiled
 def solve_rows(joints, flange, unlinkage, target, tool_length, axes, status):
     """Writes columns 0..2 of axes (m, >= n) so that the tool tip is at target[:, :3].
 
@@ -108,29 +105,33 @@ def solve_rows(joints, flange, unlinkage, target, tool_length, axes, status):
     walking the chain once gives the offset and the three columns of one 3x3 system.
     """
     columns = np.zeros((3, 3))
-    placed = np.zeros(3, np.int64)
+    _solve_rows(joints, flange, unlinkage, target, tool_length, axes, status, columns)
+
+
+@compiled
+def _solve_rows(joints, flange, unlinkage, target, tool_length, axes, status, columns):
+    """`solve_rows`; columns (3, 3): room for the directions of the linear axes."""
+    last = joints.shape[0] - 1
     for row in range(axes.shape[0]):
         x = flange[1, 0] - tool_length * flange[0, 0]
         y = flange[1, 1] - tool_length * flange[0, 1]
         z = flange[1, 2] - tool_length * flange[0, 2]
-        count = 0
-        for k in range(joints.shape[0] - 1, -1, -1):
+        for k in range(last, -1, -1):
             kx, ky, kz = joints[k, 1], joints[k, 2], joints[k, 3]
             axis = int(joints[k, 7])
             if joints[k, 0] == 1.0:
                 columns[axis, 0], columns[axis, 1], columns[axis, 2] = kx, ky, kz
-                placed[count] = axis
-                count += 1
             else:
                 s, c = sincos_deg(axes[row, axis])
                 px, py, pz = joints[k, 4], joints[k, 5], joints[k, 6]
                 x, y, z = rotate(kx, ky, kz, s, c, x - px, y - py, z - pz)
                 x, y, z = x + px, y + py, z + pz
-                for i in range(count):
-                    a = placed[i]
-                    columns[a, 0], columns[a, 1], columns[a, 2] = rotate(
-                        kx, ky, kz, s, c, columns[a, 0], columns[a, 1], columns[a, 2]
-                    )
+                for j in range(k + 1, last + 1):
+                    if joints[j, 0] == 1.0:
+                        a = int(joints[j, 7])
+                        columns[a, 0], columns[a, 1], columns[a, 2] = rotate(
+                            kx, ky, kz, s, c, columns[a, 0], columns[a, 1], columns[a, 2]
+                        )
         if status[row] == OK:
             x, y, z = target[row, 0] - x, target[row, 1] - y, target[row, 2] - z
             status[row], x, y, z = _solve3(columns, x, y, z)

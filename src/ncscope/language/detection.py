@@ -10,6 +10,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+import numpy as np
+
+from ncscope.compilation import compiled
 from ncscope.diagnostics import Source
 from ncscope.language.lexer import tokens
 
@@ -21,17 +24,20 @@ _MARKS = (
     re.compile(r"#[ \t\0\r]*(?:IF|ELSE|ENDIF)(?![A-Za-z])", re.IGNORECASE),
     re.compile(r"%[ \t\0\r]*L[ \t\0\r]", re.IGNORECASE),
 )
+_DOLLAR, _HASH, _PERCENT, _L, _CASE = (np.uint8(ord(char)) for char in "$#%l ")
+"""A capital letter is the small one without the bit of the blank."""
 _CALL = re.compile(r"LL?(?=[ \t\0\r\n\"]|\Z)", re.IGNORECASE)
 
 
 def needs_layout(source: Source) -> bool:
     """Whether the text may hold control flow or calls; never wrong with False."""
-    start = 0
+    start, data = 0, source.data if len(source) > PIECE else None
     while start < len(source):
         stop = source.end_of_line(start + PIECE) + 1
-        text = source.part(start, stop)
-        if any(not _is_hidden(text, at, start == 0) for at in _marks(text)):
-            return True
+        if data is None or _holds_mark(data, start, min(stop, len(data))):
+            text = source.part(start, stop)
+            if any(not _is_hidden(text, at, start == 0) for at in _marks(text)):
+                return True
         start = stop
         source.forget(start)
     return False
@@ -77,3 +83,12 @@ def _is_hidden(text: str, at: int, is_first: bool) -> bool:
         if at < token.start + len(token.text):
             return token.kind in ("comment", "string")
     return False
+
+
+@compiled
+def _holds_mark(data, start, stop):
+    """Whether a character that `_marks` looks for is in these bytes: $ # % L l."""
+    found = 0
+    for char in data[start:stop]:  # counted without a branch, so that many are looked at in one
+        found += (char == _DOLLAR) | (char == _HASH) | (char == _PERCENT) | (char | _CASE == _L)
+    return found > 0

@@ -21,9 +21,14 @@ CHUNK = 65_536
 LONGEST_LINE = 4000
 """A longer block is a mistake that the parser reports."""
 _UNKNOWN = -1
-_DIGITS = 15
+_DIGITS = np.uint64(15)
 """So many digits, divided by a power of ten, give the same double as the parser's `float`."""
-_POWERS = 10.0 ** np.arange(_DIGITS + 1)
+_POWERS = 10.0 ** np.arange(int(_DIGITS) + 1)
+_HIGHEST_BLOCK = 999_999_999
+
+# Offsets and counts are unsigned: a signed index would be compared with zero at each character.
+_NONE, _ONE, _TEN, _ZERO = np.uint64(0), np.uint64(1), np.uint64(10), np.uint64(48)
+_LONGEST = np.uint64(LONGEST_LINE - 40)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +56,7 @@ class Scanner:
 
     def __init__(self, data: NDArray[np.uint8], axis_names: tuple[str, ...]) -> None:
         self.data = data
-        self._size = _whole_lines(data)
+        self._size = np.uint64(_whole_lines(data))
         self.columns = np.full(256, _UNKNOWN, dtype=np.int64)
         for index, name in enumerate(axis_names):
             if len(name) == 1 and name in "ABCQUVWXYZ":
@@ -67,8 +72,8 @@ class Scanner:
     def scan(self, offset: int, line: int) -> PlainRows:
         """The plain blocks from `offset`, which begins line `line`, up to CHUNK rows."""
         count = _scan(
-            self.data, self._size, offset, line, self.columns, _POWERS, self._line, self._block,
-            self._codes, self._feed, self._values, self._stops,
+            self.data, self._size, np.uint64(offset), line, self.columns, _POWERS, self._line,
+            self._block, self._codes, self._feed, self._values, self._stops,
         )  # fmt: skip
         return PlainRows(
             self._line[:count],
@@ -94,112 +99,109 @@ def _whole_lines(data):
 def _scan(data, size, at, line, columns, powers, lines, blocks, codes, feeds, values, stops):
     """Rows read; a blank line between plain blocks belongs to the run. Each line before `size`
     ends with a line feed, so that no loop below it needs another end."""
-    count = 0
+    count = _NONE
     while at < size and count < len(lines):
-        stop = _read_line(data, at, columns, powers, blocks, codes, feeds, values, count)
-        if stop < 0:
+        start = at
+        at, axes = _read_line(data, at, columns, powers, blocks, codes, feeds, values, count)
+        if at == _NONE:
             break
-        if stop > 0:
-            lines[count], stops[count] = line, stop
-            count += 1
-            at = stop
-        else:  # a blank line
-            while data[at] != 10:
-                at += 1
-            at += 1
+        if axes:
+            lines[count], stops[count] = line, at
+            count += _ONE
+        elif not _is_blank(data, start):
+            break
         line += 1
     return count
 
 
 @compiled
-def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
-    """Offset behind the line when it is plain, 0 for a blank line, -1 for any other."""
-    longest = at + LONGEST_LINE - 40
-    blocks[row], codes[row, 0], codes[row, 1] = -1, -1, -1
-    feeds[row] = np.nan
-    for k in range(values.shape[1]):
-        values[row, k] = np.nan
-    words, axes = 0, 0
-    while True:
-        char = data[at]
-        if char == 32 or char == 9 or (char == 13 and data[at + 1] == 10):
-            at += 1
-            continue
-        if char == 10:
-            break
-        if at > longest:
-            return -1
-        mantissa, digits, decimals, negative, at = _number(data, at + 1)
-        if at < 0:
-            return -1
-        whole = decimals < 0 and not negative
-        if char == 78:  # N
-            if words > 0 or not whole or digits > 9:
-                return -1
-            blocks[row] = mantissa
-        elif char == 71:  # G
-            if not whole or not _set_code(codes, row, mantissa):
-                return -1
-        elif char == 70:  # F
-            feed = mantissa / powers[max(decimals, 0)]
-            if negative or feed <= 0.0 or not np.isnan(feeds[row]):
-                return -1
-            feeds[row] = feed
-        else:
-            column = columns[char]
-            if column < 0 or not np.isnan(values[row, column]):
-                return -1
-            value = mantissa / powers[max(decimals, 0)]
-            values[row, column] = -value if negative else value
-            axes += 1
-        words += 1
-    if words == 0:
-        return 0
-    return at + 1 if axes else -1
+def _is_blank(data, at):
+    while data[at] == 32 or data[at] == 9 or data[at] == 13:
+        at += _ONE
+    return data[at] == 10
 
 
 @compiled
-def _set_code(codes, row, number):
-    """G0 G1 G90 G91, one of each group; False for any other."""
-    if number == 0 or number == 1:
-        if codes[row, 0] >= 0:
-            return False
-        codes[row, 0] = number
-        return True
-    if number == 90 or number == 91:
-        if codes[row, 1] >= 0:
-            return False
-        codes[row, 1] = 91 - number
-        return True
-    return False
+def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
+    """Offset behind the line and its number of axis words; offset 0 when it is not plain."""
+    longest = at + _LONGEST
+    block, motion, absolute, feed = -1, -1, -1, np.nan
+    for axis in range(values.shape[1]):
+        values[row, np.uint64(axis)] = np.nan
+    words, axes = 0, 0
+    while True:
+        char = data[at]
+        if char == 32 or char == 9 or (char == 13 and data[at + _ONE] == 10):
+            at += _ONE
+            continue
+        if char == 10:
+            break
+        number, decimals, whole, negative, at = _number(data, at + _ONE)
+        if at == _NONE or at > longest:
+            return _NONE, 0
+        if char == 78:  # N
+            if words > 0 or not whole or number > _HIGHEST_BLOCK:
+                return _NONE, 0
+            block = number
+        elif char == 71 and whole and number <= 1:  # G0, G1
+            if motion >= 0:
+                return _NONE, 0
+            motion = number
+        elif char == 71 and whole and 90 <= number <= 91:  # G90, G91
+            if absolute >= 0:
+                return _NONE, 0
+            absolute = 91 - number
+        elif char == 70:  # F
+            if negative or number == 0 or not np.isnan(feed):
+                return _NONE, 0
+            feed = number / powers[decimals]
+        else:
+            known = columns[char]
+            if known < 0:
+                return _NONE, 0
+            column = np.uint64(known)
+            if not np.isnan(values[row, column]):
+                return _NONE, 0
+            value = number / powers[decimals]
+            values[row, column] = -value if negative else value
+            axes += 1
+        words += 1
+    blocks[row], feeds[row], codes[row, 0], codes[row, 1] = block, feed, motion, absolute
+    return at + _ONE, axes
 
 
 @compiled
 def _number(data, at):
-    """Digits at `at` after blanks and one sign: mantissa, digit count, decimals (-1 without a
-    point), sign, and the offset behind; offset -1 when this is no literal or too long to be exact.
-    """
+    """Digits at `at` after blanks and one sign: their value without the point, decimals, whether
+    there is neither sign nor point, whether it is negative, and the offset behind; offset 0 when
+    this is no literal or too long to be exact."""
     while data[at] == 32 or data[at] == 9:
-        at += 1
+        at += _ONE
     negative = data[at] == 45
-    if negative or data[at] == 43:
-        at += 1
-    first, mantissa = at, np.int64(0)
-    while 48 <= data[at] <= 57:
-        mantissa = mantissa * 10 + np.int64(data[at] - 48)
-        at += 1
-    digits, decimals = at - first, -1
-    if data[at] == 46:
-        at += 1
+    signed = negative or data[at] == 43
+    if signed:
+        at += _ONE
+    number, first = _NONE, at
+    digit = data[at] - _ZERO
+    while digit < _TEN:
+        number = number * _TEN + digit
+        at += _ONE
+        digit = data[at] - _ZERO
+    digits, decimals = at - first, _NONE
+    point = data[at] == 46
+    if point:
+        at += _ONE
         first = at
-        while 48 <= data[at] <= 57:
-            mantissa = mantissa * 10 + np.int64(data[at] - 48)
-            at += 1
+        digit = data[at] - _ZERO
+        while digit < _TEN:
+            number = number * _TEN + digit
+            at += _ONE
+            digit = data[at] - _ZERO
         decimals = at - first
         digits += decimals
-    if digits == 0 or digits > _DIGITS or not _ends_number(data[at]):
-        return mantissa, digits, decimals, negative, -1
-    return mantissa, digits, decimals, negative, at
+    if digits == _NONE or digits > _DIGITS or not _ends_number(data[at]):
+        at = _NONE
+    return np.int64(number), decimals, not (signed or point), negative, at
 
 
 @compiled
