@@ -21,11 +21,11 @@ import numpy as np
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-MANY_ROWS = 100
-"""Rows of one call from which machine code is used."""
+MANY_ROWS = 1000
+"""Rows of a table (two dimensions) in one call from which machine code is used."""
 MANY_CALLS = 20_000
 """Calls, those of compiled functions among themselves included, after which it is used anyway:
-about 2,000 poses, which take as long as numba takes to load."""
+some 2,500 poses, which take as long as numba takes to load."""
 
 
 def compiled(function: Function) -> Function:
@@ -74,7 +74,10 @@ class _Waiting:
 
 
 def _many(arguments: tuple[Any, ...]) -> bool:
-    return any(isinstance(a, np.ndarray) and len(a) > MANY_ROWS for a in arguments)
+    for argument in arguments:  # `any` of a generator takes as long as a small loop itself
+        if type(argument) is np.ndarray and argument.ndim > 1 and len(argument) > MANY_ROWS:
+            return True
+    return False
 
 
 _lock = threading.Lock()

@@ -144,9 +144,9 @@ class Coordinates:
         values = self.contour.apply(self._mapped(program))
         return transformed(values, *self._to_mcs)
 
-    def to_wcs(self, program: ArrayLike) -> Array:
+    def wcs_from_mcs(self, mcs: ArrayLike) -> Array:
         """The same point with all coordinate systems undone, without the offsets of level 0."""
-        return self.to_mcs(program) - self._total(self.levels[0])
+        return np.asarray(mcs, dtype=float) - self._total(self.levels[0])
 
     def program_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Programmed values (..., n) of a tool tip (..., n) in the machine system."""
@@ -180,7 +180,7 @@ class Coordinates:
         """Unit vector (..., 3) tip -> flange in the MCS; None without a kinematics."""
         if self.kinematics is None:
             return None
-        position = np.asarray(axes, dtype=float) - self._jogged
+        position = axes if self.manual is None else np.asarray(axes, dtype=float) - self._jogged
         return self.kinematics.model.forward(position, tool_length=self.tool.length)[1]
 
     # --- level-absolute values -----------------------------------------------------------------

@@ -38,7 +38,7 @@ MOST_BLOCKS = 10_000_000
 """Executed blocks after which a program with loops ends, where no limit is given."""
 
 
-BULK_FROM = 20_000
+BULK_FROM = 70_000
 """Characters from which the compiled bulk lane is worth the time of its loading."""
 
 

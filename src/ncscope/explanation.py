@@ -106,8 +106,9 @@ def whereabouts(at: Visit, line: int, axes: Mapping[str, float]) -> Whereabouts:
         position[at.axes.index(name)] = value
     chain = at.coordinates
     program = chain.to_program(position)
+    mcs = chain.to_mcs(program)
     assumed = tuple(a for a in at.axes if a not in axes)
     return Whereabouts(
-        at.file, line, at.block, at.axes, assumed, program, chain.to_wcs(program),
-        chain.to_mcs(program), position, chain.direction(position),
+        at.file, line, at.block, at.axes, assumed, program, chain.wcs_from_mcs(mcs), mcs,
+        position, chain.direction(position),
     )  # fmt: skip

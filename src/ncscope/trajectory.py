@@ -97,7 +97,7 @@ class Stretch:
 
     @cached_property
     def wcs(self) -> Array:
-        return self.coordinates.to_wcs(self.pcs)
+        return self.coordinates.wcs_from_mcs(self.mcs)
 
     @cached_property
     def direction(self) -> Array | None:

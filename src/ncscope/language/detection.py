@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ncscope.compilation import compiled
+from ncscope.compilation import compiled, load
 from ncscope.diagnostics import Source
 from ncscope.language.lexer import tokens
 
@@ -31,7 +31,10 @@ _CALL = re.compile(r"LL?(?=[ \t\0\r\n\"]|\Z)", re.IGNORECASE)
 
 def needs_layout(source: Source) -> bool:
     """Whether the text may hold control flow or calls; never wrong with False."""
-    start, data = 0, source.data if len(source) > PIECE else None
+    start, data = 0, None
+    if len(source) > PIECE:
+        load()
+        data = source.data
     while start < len(source):
         stop = source.end_of_line(start + PIECE) + 1
         if data is None or _holds_mark(data, start, min(stop, len(data))):

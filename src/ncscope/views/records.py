@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import io
+import os
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
@@ -25,6 +26,8 @@ from ncscope.views.splicing import Template
 ROWS = 20_000
 """Moves that are turned into text at a time."""
 SYSTEMS = ("pcs", "wcs", "mcs", "acs")
+Lines = NDArray[np.uint8] | bytes
+"""Text in UTF-8."""
 
 
 class NewAxis(Exception):
@@ -42,8 +45,8 @@ class JsonlWriter:
         self._diagnostics(before)
 
     def write(self, stretch: Stretch) -> None:
-        for text in _json_moves(stretch, self.moves):
-            self.out.write(text)
+        for lines in _json_moves(stretch, self.moves):
+            _put(self.out, lines)
         self.moves += int(stretch.end.sum())
 
     def finish(self, result: Trajectory | None, ok: bool) -> None:
@@ -80,8 +83,8 @@ class CsvWriter:
     def write(self, stretch: Stretch) -> None:
         if not set(stretch.axes) <= set(self.axes):
             raise NewAxis
-        for text, ends in _csv_moves(stretch, self.axes):
-            self.out.write(_with_ends(text, ends) if self.sampled else text)
+        for lines, ends in _csv_moves(stretch, self.axes):
+            _put(self.out, _with_ends(lines, ends) if self.sampled else lines)
 
     def finish(self, result: Trajectory | None, ok: bool) -> None:
         """Nothing follows the moves."""
@@ -108,7 +111,7 @@ def move_record(result: Trajectory, index: int) -> str:
     one = slice(row, row + 1)
     columns = ("line", "block", "motion", "feed", "pcs", "acs")
     part = replace(stretch, **{name: getattr(stretch, name)[one] for name in columns})
-    return next(_json_moves(part, index))
+    return bytes(next(_json_moves(part, index))).decode()
 
 
 def diagnostic_record(item: Diagnostic) -> dict[str, Any]:
@@ -128,21 +131,31 @@ def _json(record: Any) -> str:
     return orjson.dumps(record, option=orjson.OPT_APPEND_NEWLINE).decode()
 
 
-def _json_moves(s: Stretch, first: int) -> Iterator[str]:
+def _put(out: TextIO, lines: Lines) -> None:
+    """Lines in UTF-8 to a stream of text: past its encoder where that would change nothing."""
+    below = getattr(out, "buffer", None)
+    if below is None or out.encoding.lower() not in ("utf-8", "utf8") or os.linesep != "\n":
+        out.write(bytes(lines).decode())
+    else:
+        out.flush()
+        below.write(lines)
+
+
+def _json_moves(s: Stretch, first: int) -> Iterator[Lines]:
     """Chunks of lines, one object a move."""
     template = _json_template(s.file, s.axes, s.direction is not None)
     index = first + np.cumsum(s.end) - s.end
     for start, stop in _chunks(len(s)):
         whole = np.column_stack([index[start:stop], s.line[start:stop], s.block[start:stop]])
-        text = template.rows(whole, s.motion[start:stop], _matrix(s, s.axes, start, stop))
-        yield text if s.ends is None else _with_points(text, s.ends[start:stop])
+        lines = template.rows(whole, s.motion[start:stop], _matrix(s, s.axes, start, stop))
+        yield lines if s.ends is None else _with_points(lines, s.ends[start:stop])
 
 
-def _with_points(text: str, ends: Iterable[bool]) -> str:
+def _with_points(lines: Lines, ends: Iterable[bool]) -> bytes:
     """The lines of moves with the kind `point` where they are no ends."""
-    move, point = '{"kind":"move"', '{"kind":"point"'
-    lines = zip(text.splitlines(keepends=True), ends, strict=True)
-    return "".join(line if end else point + line[len(move) :] for line, end in lines)
+    move, point = b'{"kind":"move"', b'{"kind":"point"'
+    pairs = zip(bytes(lines).splitlines(keepends=True), ends, strict=True)
+    return b"".join(line if end else point + line[len(move) :] for line, end in pairs)
 
 
 @cache
@@ -162,7 +175,7 @@ def _json_template(file: str, axes: tuple[str, ...], directed: bool) -> Template
     return Template(tuple(row.split(gap)), MOTIONS, "null")
 
 
-def _csv_moves(s: Stretch, axes: tuple[str, ...]) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+def _csv_moves(s: Stretch, axes: tuple[str, ...]) -> Iterator[tuple[Lines, NDArray[np.bool_]]]:
     template = _csv_template(s.file, axes)
     for start, stop in _chunks(len(s)):
         whole = np.column_stack([s.line[start:stop], s.block[start:stop]])
@@ -170,10 +183,10 @@ def _csv_moves(s: Stretch, axes: tuple[str, ...]) -> Iterator[tuple[str, NDArray
         yield template.rows(whole, s.motion[start:stop], matrix), s.end[start:stop]
 
 
-def _with_ends(text: str, ends: Iterable[bool]) -> str:
+def _with_ends(lines: Lines, ends: Iterable[bool]) -> bytes:
     """Lines with the column `end`."""
-    lines = zip(text.splitlines(), ends, strict=True)
-    return "".join(f"{line},{end:d}\n" for line, end in lines)
+    pairs = zip(bytes(lines).splitlines(), ends, strict=True)
+    return b"".join(b"%s,%d\n" % (line, end) for line, end in pairs)
 
 
 @cache
