@@ -49,6 +49,7 @@ class InBackground:
         self._waiting: deque[Future[None]] = deque()
 
     def write(self, stretch: Stretch) -> None:
+        _ = stretch.wcs, stretch.mcs, stretch.direction  # here, because the writer has more to do
         self._waiting.append(self._thread.submit(self._writer.write, stretch))
         while len(self._waiting) > WAITING:
             self._waiting.popleft().result()
