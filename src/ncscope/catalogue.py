@@ -60,6 +60,8 @@ CATALOGUE: dict[str, Entry] = {
     "21531": Entry("error", "#MCS cannot be switched while #PTP is active."),
     "21550": Entry("error", "Coordinate systems cannot be switched on while #PTP is active."),
     "21552": Entry("error", "A transformation cannot be switched on while #PTP is active."),
+    "22257": Entry("error", "Axes cannot be exchanged while a PCS transformation is active."),
+    "22282": Entry("error", "The PCS transformation cannot be changed while it is active."),
     "22287": Entry("error", "The type is no PCS transformation."),
     "292005": Entry("error", "The kinematic id is not available."),
     "292007": Entry("error", "A direction of the kinematics is the zero vector."),

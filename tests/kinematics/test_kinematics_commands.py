@@ -181,8 +181,27 @@ def test_two_steps_programmed_values_go_through_the_second_first():
     text = "V.G.WZ_AKT.L=10\n#TRAFO [91,51]\nX2 Y5 Z1 C0 A90"
     assert positions(text, own) == [[round(2 * ROOT, 9), 3 - 10, 1, 0, 90]]
     assert positions("#KIN ID [91,51]\n#TRAFO ON\nX2 Y5", own)[0][:2] == [round(2 * ROOT, 9), 3]
-    result = run("#TRAFO [91,51]\nX2 Y5 Z1 C0 A90", own)
-    np.testing.assert_allclose(result.direction[-1], [0, 0, 1], atol=1e-12)
+
+
+def test_direction_of_two_steps_is_that_of_the_tool():
+    """The first step has the tool: (0, -1, 0) at A90. X of the second step runs along (1, 1, 0), so
+    a tool along X of the first, C90 A90, is seen along (1, 1, 0)."""
+    result = run("#TRAFO [91,51]\nX2 Y5 Z1 C0 A90\nC90", machine(second=SKEW))
+    expected = [[0, -1, 0], [1 / ROOT, 1 / ROOT, 0]]
+    np.testing.assert_allclose(result.direction, expected, atol=1e-12)
+
+
+def test_direction_below_a_table_is_turned_by_it():
+    """First step: A tilts the tool. Second step: a table C, whose axis is entered inverted. At A90
+    the tool lies along (0, -1, 0); the table at C90 turns the part under it, so that on the part
+    it lies along Rz(-90) (0, -1, 0) = (-1, 0, 0)."""
+    tilt = SKEW | {"axis": [*LINEAR, {"type": 2, "orientation": [1, 0, 0]}]}
+    tilt |= {"number_of_axes": 4, "chain": [0, 1, 2, 3]}
+    free = {"type": 2, "orientation": [1, 0, 0]}
+    table = HEAD | {"axis": [*LINEAR, free, {"type": 2, "orientation": [0, 0, -1]}]}
+    table |= {"chain": [4, 0, 1, 2, 3]}
+    result = run("V.G.WZ_AKT.L=7\n#TRAFO [91,51]\nX1 A90 C90", machine(tilt, "XYZAC", table))
+    np.testing.assert_allclose(result.direction[-1], [-1, 0, 0], atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -302,8 +321,8 @@ def test_program_transformation_is_selected_by_the_lists_and_refused_by_name():
     universal = machine(program_step_parameters={7: KinematicParameters(id=7, type=91)})
     assert errors("#TRAFO PCS ID [7]\n#TRAFO PCS ON", universal) == [("22287", 3, 1)]
     text = "#TRAFO PCS ID [500]\n#TRAFO PCS ON\n"
-    assert errors(text + "#TRAFO PCS ID [500]", polar_machine()) == [("20687", 4, 1)]
-    assert errors(text + "#SET AX [X,1,0]", polar_machine()) == [("20683", 4, 1)]
+    assert errors(text + "#TRAFO PCS ID [500]", polar_machine()) == [("22282", 4, 1)]
+    assert errors(text + "#SET AX [X,1,0]", polar_machine()) == [("22257", 4, 1)]
 
 
 def test_a_kinematics_of_another_type_is_used_like_the_universal_one():

@@ -18,7 +18,7 @@ from ncscope.kinematics import UniversalKinematics
 from ncscope.kinematics.kernels import OK, SINGULAR
 
 MACHINES, POSES = 200, 10
-"""For each of the ten cases below."""
+"""For each of the eleven cases below."""
 AGREEMENT = 1e-9
 
 
@@ -92,6 +92,10 @@ def as_axis_angles(machine, q, tip, d):
     return np.column_stack([tip, q[:, 3:]])
 
 
+def as_axes(machine, q, tip, d):
+    return np.array(q)
+
+
 def names_of(mode: int) -> str:
     letters = {14: "AB", 15: "BA", 16: "AC", 17: "CA", 18: "BC", 19: "CB"}.get(mode, "")
     return "XYZUVW" if mode == 10 else f"XYZ{letters or 'CA'}S"
@@ -100,6 +104,7 @@ def names_of(mode: int) -> str:
 CLASSIC = {14: "AB", 15: "BA", 16: "AC", 17: "CA", 18: "BC", 19: "CB"}
 COMPLETE = [
     (10, as_vector),
+    (12, as_axes),
     (13, as_axis_angles),
     *((mode, partial(as_angles, letters)) for mode, letters in CLASSIC.items()),
 ]
@@ -109,7 +114,10 @@ COMPLETE = [
     ("mode", "written"), COMPLETE, ids=lambda v: v if isinstance(v, int) else ""
 )
 def test_complete_transformation(mode, written):
-    """Directions that the machine itself makes, with 1 or 2 rotary axes and in both poses."""
+    """Directions that the machine itself makes, with 1 or 2 rotary axes and in both poses.
+
+    In mode 12 the program has axis values of the machine with tool length 0.
+    """
     rng = np.random.default_rng(mode)
     for count in range(MACHINES):
         rotary = 1 if count % 5 == 0 else 2
@@ -119,7 +127,7 @@ def test_complete_transformation(mode, written):
         q[:, :3] = rng.uniform(-1000, 1000, (POSES, 3))
         q[:, 3 : 3 + rotary] = rng.uniform(-180, 180, (POSES, rotary))
         length = rng.uniform(0, 300)
-        tip, d = tool(machine, q, length)
+        tip, d = tool(machine, q, 0.0 if mode == 12 else length)
         program = written(machine, q, tip, d)
         pose = kin.pose_of(q)
         for wanted in (pose, -pose) if rotary == 2 else (pose,):

@@ -62,6 +62,16 @@ def test_which_of_two_solutions(mode, start, expected):
     assert tilted(start, mode=mode)[3:] == expected
 
 
+def test_the_shortest_way_of_a_modulo_axis_may_cross_the_end_of_its_range():
+    """From C170 A-20 to C90 A30 it is 80 + 50 degrees. To C-90 A-30 it is 260 + 10, where C is a
+    modulo axis 100 + 10."""
+    assert tilted("C170 A-20", mode=1)[3:] == [90, 30]
+    own = machine(settings=ChannelSettings(tool_orientation_mode=1))
+    turning = replace(own.axes[3], modulo_range=(-180.0, 180.0))
+    own = replace(own, axes=(*own.axes[:3], turning, own.axes[4]))
+    assert positions(TILTED.format(start="C170 A-20"), own)[-1][3:] == [-90, -30]
+
+
 def test_limits_come_before_the_shortest_way():
     assert tilted("C80 A20", mode=2)[3:] == [90, 30]
     assert tilted("C80 A20", mode=2, limits=(-180.0, 85.0))[3:] == [-90, -30]

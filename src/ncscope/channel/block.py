@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from ncscope.channel import calls, macros, modulo, radius_compensation, tools
 from ncscope.channel.commands import COMMANDS, LAST, point_to_point
+from ncscope.channel.commands.bare import refuse_arguments
 from ncscope.channel.commands.declarations import declare
 from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
@@ -120,6 +121,7 @@ def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None
     radius_compensation.refuse(draft, command)
     point_to_point.refuse_inside(draft, command)
     refuse_path_condition(draft, command.name, block.words)
+    refuse_arguments(draft, command)
     row = lookup(command.name)
     if command.name in COMMANDS:
         COMMANDS[command.name](draft, command)

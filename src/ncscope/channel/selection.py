@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ncscope.channel.draft import Draft
+from ncscope.channel.evaluation import evaluate_number
 from ncscope.channel.state import PROGRAM_STEP
 from ncscope.coordinates import ActiveKinematics
 from ncscope.diagnostics import Span
@@ -17,6 +18,7 @@ from ncscope.kinematics.building import UNIVERSAL, build, type_of
 from ncscope.kinematics.chain import Fault, validate
 from ncscope.kinematics.parameters import FIELD_OF_INDEX, INDEX_OF_FIELD, KinematicParameters
 from ncscope.kinematics.step import KinematicsError, KinematicStep, TwoSteps
+from ncscope.language import tree
 from ncscope.machine import Tool
 
 SHIFT_PARAMETERS = frozenset(range(3, 6))
@@ -56,6 +58,15 @@ def kinematics_of(draft: Draft, span: Span, ids: tuple[int, int]) -> KinematicSt
             "two angle pairs mean one direction, so the second step would have no definite values",
         )
     return TwoSteps(first, step_of(draft, span, 1, ids[1]))
+
+
+def evaluate_id(draft: Draft, expression: tree.Expression) -> int:
+    """A kinematic id as a program writes it; fails for a fraction."""
+    value = evaluate_number(draft, expression)
+    if not value.is_integer():
+        what = f"{value:g} is no kinematic id"
+        draft.fail("N1005", expression.span, what, "ids are whole numbers, for example 91")
+    return int(value)
 
 
 def step_of(draft: Draft, span: Span, step: int, id: int) -> KinematicStep:

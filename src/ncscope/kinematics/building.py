@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ncscope.kinematics.library import LIBRARY
 from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.kinematics.readings import STANDARD, Reading
 from ncscope.kinematics.step import Builder, KinematicsError, KinematicStep
@@ -45,13 +46,14 @@ def build(
     if types and type in types:
         return types[type](parameters, axis_names, default_mode)
     if type != UNIVERSAL:
-        known = ", ".join(str(t) for t in sorted({UNIVERSAL, *(types or ())}))
-        hint = f"known types: {known}"
-        if FIRST_ID <= type <= LAST_ID:
-            hint = f"give its Python class with --kinematics FILE.py; {hint}"
-        raise KinematicsError(
-            "N2001",
-            f"kinematics {parameters.id} of type {type} is not supported",
-            hint=hint,
-        )
+        raise KinematicsError("N2001", f"type {type} is not supported", hint=_help(type, types))
     return UniversalKinematics.from_parameters(parameters, axis_names, default_mode, reading)
+
+
+def _help(type: int, types: Mapping[int, Builder] | None) -> str:
+    known = ", ".join(str(t) for t in sorted({UNIVERSAL, *(types or ())}))
+    if FIRST_ID <= type <= LAST_ID:
+        return f"give its Python class with --kinematics FILE.py; known types: {known}"
+    if type in LIBRARY:
+        return f"ncscope convert --kin {type} writes its list as a data set of type {UNIVERSAL}"
+    return f"known types: {known}"

@@ -310,9 +310,12 @@ class _Check:
         mode = self._programming_mode()
         if mode in _MODES or (mode in _LETTER_MODES and not self._complete()):
             return
+        field = "programming_mode"
+        if not self._get(field) and self.default_mode:
+            field += " is 0 and ori_rotation_angle (P-CHAN-00112)"
         yield Fault(
             "292045",
-            f"programming_mode is {mode}, which the universal kinematics does not support"
+            f"{field} is {mode}, which the universal kinematics does not support"
             + (" with rtcp 0" if mode in _LETTER_MODES else ""),
             (INDEX_OF_FIELD["programming_mode"], INDEX_OF_FIELD["rtcp"]),
             "10 or 12 to 19" + (", or rtcp 1" if mode in _LETTER_MODES else ""),

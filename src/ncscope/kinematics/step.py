@@ -133,9 +133,20 @@ class TwoSteps:
         return self.second.orientation
 
     def forward(self, axes: ArrayLike, tool_length: float = 0.0) -> tuple[Array, Array | None]:
-        """Tip and direction of the tool in the system of the program."""
-        between = self.first.program(axes, tool_length)
-        return self.second.forward(between)
+        """Tip and direction of the tool in the system of the program.
+
+        The direction is that from the tip of the tool to the tip of one that is 1 mm shorter: the
+        second step carries both points. None where the first step has no tool.
+        """
+        tip = self._tip(axes, tool_length)
+        if self.first.forward(axes, tool_length)[1] is None:
+            return tip, None
+        along = self._tip(axes, tool_length - 1.0) - tip
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return tip, along / np.linalg.norm(along, axis=-1, keepdims=True)
+
+    def _tip(self, axes: ArrayLike, tool_length: float) -> Array:
+        return self.second.forward(self.first.program(axes, tool_length))[0]
 
     def inverse(
         self,

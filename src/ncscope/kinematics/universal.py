@@ -246,15 +246,15 @@ def _position_chain(chain: Chain, reading: Reading) -> Packed | None:
 def explain_status(kinematics: UniversalKinematics, status: int) -> tuple[str, str]:
     """The control's error number and one sentence for a row status other than 0."""
     names = kinematics.axis_names
-    rotary = " and ".join(names[a] for a in kinematics.chain.rotary if a < len(names))
+    rotary = [names[a] for a in kinematics.chain.rotary if a < len(names)]
     if status == kernels.SINGULAR:
         linear = ", ".join(names[:3])
         return "292016", f"the linear axes {linear} cannot reach every point in this position"
     if status == kernels.UNREACHABLE:
-        by = (
-            f"the rotary axes {rotary} cannot" if rotary else "a machine without rotary axes cannot"
-        )
-        return "292014", f"{by} bring the tool into this direction"
+        by = "a machine without rotary axes"
+        if rotary:
+            by = f"the rotary {'axis' if len(rotary) == 1 else 'axes'} {' and '.join(rotary)}"
+        return "292014", f"{by} cannot bring the tool into this direction"
     if status == kernels.ZERO_VECTOR:
         return "292007", "the tool direction is the zero vector"
     return "20703", "a programmed value is not a finite number"

@@ -2,7 +2,8 @@
 
 Three spellings reach one kind of record: `kinematik[id].x` (up to V2.11), `trafo[j].id` with
 `trafo[j].x` (from V3.00), and `kin_step[0].trafo[j].x`. `kin_step[1].trafo[j].x` is the second step
-of a transformation, `trafo_pcs[j].x` a PCS transformation. Numbers stay in list units.
+of a transformation, `trafo_pcs[j].x` a PCS transformation, for which the programming manual also
+writes `trafo_pcs[j].trafo[0].x`. Numbers stay in list units.
 Source: FCT-C27 3.2 and 3.5, P-CHAN-00262, -00263, -00285 to -00295, -00829.
 """
 
@@ -18,7 +19,7 @@ from ncscope.lists.values import Reading
 
 _SLOT = re.compile(
     r"(?:kinematik\[(?P<id>\d+)\]|(?:kin_step\[(?P<step>\d+)\]\.)?"
-    r"trafo(?P<pcs>_pcs)?\[(?P<place>\d+)\])\.(?P<field>.+)"
+    r"trafo(?P<pcs>_pcs)?\[(?P<place>\d+)\](?(pcs)(?:\.trafo\[\d+\])?))\.(?P<field>.+)"
 )
 
 
@@ -86,6 +87,8 @@ def read_sets(
         if slot.step > 1:
             found.append(_no_such_step(reading))
             continue
+        # `kin_step[0].trafo[j]` and `trafo[j]` are one place (TF5200 multi-step transformations).
+        slot = replace(slot, spelling=slot.spelling.removeprefix("kin_step[0]."))
         current = sets.get(slot) or _empty(slot, reading)
         index = field_index(field)
         if index is None:

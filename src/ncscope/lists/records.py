@@ -33,6 +33,7 @@ SETTINGS_OF_KEYS = {
     "default_id_of_kin_step[0]": "default_kinematic_id",
     "default_id_of_kin_step[1]": "default_second_id",
     "default_id_of_trafo_pcs": "default_program_step_id",
+    "default_id_of_trafo_pcs[0]": "default_program_step_id",
     "ori_rotation_angle": "orientation_mode",
     "move_tool_offsets_directly": "tool_moves_at_once",
     "einrechnen_mit_t": "tool_with_t",

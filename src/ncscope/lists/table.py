@@ -34,7 +34,8 @@ INTEGER_RANGES = {
 
 _OLD_KINEMATICS = re.compile(r"kinematik\[\d*\]\.(.+)")
 _KINEMATIC_STEP = re.compile(r"kin_step\[\d*\]\.(trafo\[\d*\].*)")
-_PROGRAM_STEP = re.compile(r"trafo_pcs(\[\d*\]\..*)")
+_PROGRAM_STEP = re.compile(r"trafo_pcs(\[\d*\])(?:\.trafo\[\d*\])?(\..*)")
+_PROGRAM_STEP_ID = re.compile(r"(default_id_of_trafo_pcs)\[0\]", re.IGNORECASE)
 _INDEX = re.compile(r"\[\d+\]")
 
 
@@ -87,7 +88,9 @@ def pattern(key: str) -> str:
     match = _KINEMATIC_STEP.fullmatch(key)
     key = match.group(1) if match else key
     match = _PROGRAM_STEP.fullmatch(key)
-    key = f"trafo{match.group(1)}" if match else key
+    key = f"trafo{match.group(1)}{match.group(2)}" if match else key
+    match = _PROGRAM_STEP_ID.fullmatch(key)
+    key = match.group(1) if match else key
     match = _OLD_KINEMATICS.fullmatch(key.lower() if key[:1] == "K" else key)
     key = f"trafo[].{match.group(1)}" if match else key
     return _INDEX.sub("[]", key)

@@ -37,6 +37,9 @@ def set_ax(draft: Draft, command: tree.HashCommand) -> None:
 def refuse_exchange(draft: Draft, command: tree.HashCommand) -> None:
     """Fails while a transformation or #MCS is active."""
     chain = draft.state.coordinates
+    if chain.program_step is not None and chain.kinematics is None:
+        what = "axes cannot be exchanged while a PCS transformation is active"
+        draft.fail("22257", command.span, what, "switch it off first (#TRAFO PCS OFF)")
     if any(s is not None for s in (chain.kinematics, chain.program_step, chain.length_step)):
         draft.fail(
             "20683",

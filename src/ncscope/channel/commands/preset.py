@@ -14,6 +14,9 @@ def pset(draft: Draft, command: tree.HashCommand) -> None:
     if not words:
         draft.fail("N1005", command.span, "#PSET needs an axis and its new position")
     _check_contour(draft, command)
+    if draft.state.coordinates.program_step is not None:
+        what = "#PSET under a PCS transformation is not supported"
+        draft.fail("N2001", command.span, what, "switch it off first (#TRAFO PCS OFF)")
     values = {axis: draft.length(axis, value) for axis, (value, _) in words.items()}
     draft.state = offsets.preset(draft.state, values, draft.place)
 

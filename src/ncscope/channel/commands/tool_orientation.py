@@ -54,7 +54,9 @@ def _choice(draft: Draft, model: UniversalKinematics, both: Array) -> int:
     inside = [all(_inside(draft, axis, row[axis]) for axis in rotary) for row in both]
     if mode == WITHIN_LIMITS and inside[0] != inside[1]:
         return 0 if inside[0] else 1
-    travel = np.abs(both[:, rotary] - now[rotary]).sum(axis=1)
+    way = both - now
+    way -= draft.state.coordinates.modulo.whole_turns(way)
+    travel = np.abs(way[:, rotary]).sum(axis=1)
     return 0 if travel[0] <= travel[1] else 1
 
 

@@ -8,8 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ncscope.channel.draft import Draft
-from ncscope.channel.evaluation import evaluate_number
-from ncscope.channel.selection import activate
+from ncscope.channel.selection import activate, evaluate_id
 from ncscope.language import tree
 
 FORM = "write for example #TRAFO [91], #TRAFO [87,51], #TRAFO [ON,OFF] or #TRAFO [OFF]"
@@ -140,7 +139,7 @@ def _choice(
     if isinstance(place, tree.Name):
         words = "ON, OFF, NONE and DEFAULT" if switching else "NONE and DEFAULT"
         draft.fail("N1005", place.span, f"{place.text} is no kinematic id", f"words are {words}")
-    id = round(evaluate_number(draft, place))
+    id = evaluate_id(draft, place)
     return Choice(id, on=id > 0)
 
 
