@@ -52,6 +52,8 @@ class ActiveKinematics:
 
     turns_direction: coordinate systems turn the programmed direction too (P-CHAN-00247).
     point_to_point: between the ends of a move the axes run straight, not the tip (#PTP).
+    rapid_straight: with G00 they always do (P-CHAN-00423).
+    turns_in_plane: a programmed direction turns in the plane of its ends (P-CHAN-00417).
     """
 
     model: KinematicStep
@@ -59,6 +61,8 @@ class ActiveKinematics:
     origin: str | None = None
     turns_direction: bool = False
     point_to_point: bool = False
+    rapid_straight: bool = False
+    turns_in_plane: bool = True
 
 
 @dataclass(frozen=True)
@@ -170,11 +174,17 @@ class Coordinates:
             position = self.length_step.model.program(position)
         if active is not None:
             self._check_vector(active, position)
-            if near is not None:
-                near = self.to_mcs(near) - self.tool_vector
-            length = self.tool.length
-            position = active.model.program(position, length, near, self._turn)
+            near = None if near is None else self.asked(near)
+            position = active.model.program(position, self.tool.length, near, self._turn)
         return position + self.tool_vector
+
+    def asked(self, program: ArrayLike) -> Array:
+        """What the kinematics is asked for (..., n): tool tip, and the words of the direction."""
+        return self.to_mcs(program) - self.tool_vector
+
+    def program_from_asked(self, asked: Array, near: ArrayLike | None = None) -> Array:
+        """Programmed values (..., n) of what the kinematics is asked for."""
+        return self.program_from_mcs(asked + self.tool_vector, near)
 
     def direction(self, axes: ArrayLike) -> Array | None:
         """Unit vector (..., 3) tip -> flange in the MCS; None without a kinematics."""

@@ -138,6 +138,8 @@ class ChannelSettings:
     rotation_fixed: bool = False  # P-CHAN-00393
     offsets_per_level: bool = True  # P-CHAN-00397
     direction_turns: bool = False  # P-CHAN-00247 ori_wcs
+    direction_path: int = 0  # P-CHAN-00417 ori_interpolation_mode
+    rapid_straight: bool = False  # P-CHAN-00423 suppress_trafo_in_g0_blocks
     transformation_at_start: bool = False  # P-CHAN-00151 auto_enable_kin_trafo
     transformation_ends: bool = False  # P-CHAN-00152 auto_disable_kin_trafo
     tool_orientation_axis: int = 0  # P-CHAN-00188 tool_ori_cs.axis

@@ -17,7 +17,8 @@ from ncscope.explanation import Visit
 from ncscope.frames import Array
 from ncscope.motion import MOTIONS, Move
 from ncscope.motion.arc import Arc
-from ncscope.motion.sampling import Paths, needs_points, sample
+from ncscope.motion.paths import Paths
+from ncscope.motion.sampling import needs_points, sample
 from ncscope.motion.turning import turning_points
 from ncscope.trajectory import NO_BLOCK, Stretch
 
@@ -45,7 +46,7 @@ class _Part:
         if self.ways:
             stop = stop.copy()
             stop[list(self.ways)] = list(self.ways.values())
-        return Paths(start, stop, self.arcs)
+        return Paths(start, stop, self.arcs, self.stretch.motion == MOTIONS.index("G00"))
 
     def last(self, source: Source) -> tuple[Move, Coordinates]:
         s = self.stretch

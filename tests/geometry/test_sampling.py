@@ -13,7 +13,8 @@ import ncscope
 from ncscope.coordinates import ActiveKinematics, Coordinates
 from ncscope.kinematics import UniversalKinematics
 from ncscope.kinematics.parameters import field_index
-from ncscope.motion.sampling import Paths, sample
+from ncscope.motion.paths import Paths
+from ncscope.motion.sampling import sample
 
 MACHINES = Path(__file__).parents[2] / "examples" / "machines"
 HEADS = ("ca_head", "cb_head", "ac_table", "compensated_head")

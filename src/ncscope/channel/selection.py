@@ -38,8 +38,15 @@ def activate(draft: Draft, span: Span, ids: tuple[int, int]) -> None:
         return
     model = kinematics_of(draft, span, ids)
     pose = model.pose_of(draft.state.position.axes)
-    turns = draft.machine.settings.direction_turns
-    active = ActiveKinematics(model, pose, draft.place, turns)
+    settings = draft.machine.settings
+    active = ActiveKinematics(
+        model,
+        pose,
+        draft.place,
+        turns_direction=settings.direction_turns,
+        rapid_straight=settings.rapid_straight,
+        turns_in_plane=settings.direction_path >= 0,
+    )
     draft.state = replace(draft.state, kinematics=replace(held, active=ids))
     draft.set_coordinates(replace(draft.state.coordinates, kinematics=active), span)
 

@@ -129,6 +129,20 @@ class ProgrammedDirection:
             self._keep(program, directions, near)
         return status
 
+    def with_direction(self, program: Array, directions: Array) -> Array:
+        """`program` (m, n) with angles for the directions (m, 3), those nearest to the old ones.
+
+        Whole turns are kept. NaN where the written chain does not reach the direction.
+        """
+        columns = list(self.columns)
+        old = _pick(program, self.words[:2])
+        angles, status = self.written.solve(directions, old, _NEAREST)
+        angles += 360.0 * np.round((old - angles) / 360.0)
+        angles[status != 0] = np.nan
+        result = program.copy()
+        result[:, columns] = angles[:, [k for k in (0, 1) if self.words[k] >= 0]]
+        return result
+
     def reach_hint(self, direction: Array, axis_name: str) -> str:
         """The tilt that the machine can reach, and that of a direction (3,) out of reach."""
         low, high = self.own.reach

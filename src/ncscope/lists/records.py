@@ -42,6 +42,8 @@ SETTINGS_OF_KEYS = {
     "meas_error_no_signal": "probe_must_answer",
     "p_param_haltend": "keep_parameters",
     "ori_wcs": "direction_turns",
+    "ori_interpolation_mode": "direction_path",
+    "suppress_trafo_in_g0_blocks": "rapid_straight",
     "auto_enable_kin_trafo": "transformation_at_start",
     "auto_disable_kin_trafo": "transformation_ends",
     "tool_ori_cs.axis": "tool_orientation_axis",

@@ -19,7 +19,7 @@ from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
 from ncscope.motion import Move
 from ncscope.motion.arc import Arc, Point
-from ncscope.motion.sampling import Paths
+from ncscope.motion.paths import Paths
 
 CORNERED = {"G00", "G01", "G02", "G03"}
 STRAIGHT = 1e-9

@@ -9,9 +9,7 @@ and between the tool tip and where the tool would be if the axes ran on those st
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +18,7 @@ from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
 from ncscope.kinematics.universal import KinematicsError
 from ncscope.motion.arc import Arc
+from ncscope.motion.paths import Paths
 
 FINEST = 1e-4
 """mm and degrees; the smallest tolerance: the resolution of the control."""
@@ -28,55 +27,6 @@ MOST_POINTS = 100_000
 DEEPEST = 16
 """Halvings of a motion; what still deviates then jumps, as an axis does near a pole."""
 _PROBES = np.array([0.25, 0.5, 0.75])
-
-
-@dataclass(frozen=True)
-class Paths:
-    """m paths in programmed values. start, end: (m, n) mm and degrees, modulo axes not wrapped.
-    arcs: row -> its arc."""
-
-    start: Array
-    end: Array
-    arcs: Mapping[int, Arc]
-
-    def __len__(self) -> int:
-        return len(self.end)
-
-    @cached_property
-    def _arc_of_row(self) -> NDArray[np.int64]:
-        """Place of the arc of each row in the columns of `_arc_columns`, -1 for a straight path."""
-        places = np.full(len(self), -1, dtype=np.int64)
-        places[list(self.arcs)] = np.arange(len(self.arcs))
-        return places
-
-    @cached_property
-    def _arc_columns(self) -> tuple[NDArray[np.int64], Array]:
-        """Plane axes (a, 2), and (a, 6): centre, start angle, sweep, start radius, end radius."""
-        axes = np.array([arc.axes for arc in self.arcs.values()], dtype=np.int64).reshape(-1, 2)
-        values = [
-            (*arc.centre, arc.start_rad, arc.sweep_rad, arc.start_radius, arc.end_radius)
-            for arc in self.arcs.values()
-        ]
-        return axes, np.array(values, dtype=float).reshape(-1, 6)
-
-    def at(self, row: NDArray[np.int64], share: Array) -> Array:
-        """Programmed values (k, n) at shares (k,) of the paths `row` (k,); 1 is exactly the end."""
-        column = share[:, None]
-        points = self.start[row] + column * (self.end[row] - self.start[row])
-        if self.arcs:
-            self._bend(points, row, share)
-        return np.where(column == 1.0, self.end[row], points)
-
-    def _bend(self, points: Array, row: NDArray[np.int64], share: Array) -> None:
-        """Writes the plane coordinates of the points that lie on arcs."""
-        own = np.flatnonzero(self._arc_of_row[row] >= 0)
-        place = self._arc_of_row[row[own]]
-        axes, values = self._arc_columns
-        first, second, begin, sweep, radius, last = values[place].T
-        angle = begin + share[own] * sweep
-        radius = radius + share[own] * (last - radius)
-        points[own, axes[place, 0]] = first + radius * np.cos(angle)
-        points[own, axes[place, 1]] = second + radius * np.sin(angle)
 
 
 @dataclass(frozen=True)
@@ -113,6 +63,35 @@ def sample(
     if not tolerance >= FINEST:
         raise ValueError(f"the tolerance has to be {FINEST:g} or more")
     before = np.concatenate([near[None], acs[:-1]])
+    paths = paths.under(coordinates)
+    active, rapid = coordinates.kinematics, paths.rapid
+    if active is None or not active.rapid_straight or rapid is None or not rapid.any():
+        return _sample(coordinates, paths, acs, before, tolerance)
+    straight = replace(coordinates, kinematics=replace(active, point_to_point=True))
+    parts = []
+    for chain, rows in ((coordinates, ~rapid), (straight, rapid)):
+        own = np.flatnonzero(rows)
+        if len(own):
+            points = _sample(chain, paths.part(own), acs[own], before[own], tolerance)
+            coarse = tuple(int(own[i]) for i in points.coarse)
+            parts.append(replace(points, row=own[points.row], coarse=coarse))
+    return _merged(parts)
+
+
+def _merged(parts: list[Points]) -> Points:
+    """The points of disjoint paths, in the order of the paths."""
+    row = np.concatenate([p.row for p in parts])
+    order = np.lexsort((np.concatenate([p.share for p in parts]), row))
+    share, pcs, acs = (
+        np.concatenate([getattr(p, name) for p in parts])[order] for name in ("share", "pcs", "acs")
+    )
+    return Points(row[order], share, pcs, acs, tuple(sorted(i for p in parts for i in p.coarse)))
+
+
+def _sample(
+    coordinates: Coordinates, paths: Paths, acs: Array, before: Array, tolerance: float
+) -> Points:
+    """As `sample`, with the axis positions (m, n) before each path."""
     written = paths
     if coordinates.point_to_point:
         paths = _axis_paths(coordinates, paths, before, acs)

@@ -16,7 +16,7 @@ from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
 from ncscope.motion.arc import Arc
-from ncscope.motion.sampling import Paths
+from ncscope.motion.paths import Paths
 
 EVEN_POINTS = 24
 """Points of an arc under a kinematics, beside those where the tool tip turns back."""
@@ -40,7 +40,7 @@ def turning_points(coordinates: Coordinates, paths: Paths, near: Array) -> Turni
     """
     if not paths.arcs:
         return None
-    n = coordinates.axis_count
+    n, paths = coordinates.axis_count, paths.under(coordinates)
     slopes = coordinates.to_mcs(np.eye(n)) - coordinates.to_mcs(np.zeros(n))
     place, share = _shares(list(paths.arcs.values()), slopes[:, :3])
     if coordinates.kinematics is not None:
