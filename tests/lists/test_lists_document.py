@@ -94,3 +94,13 @@ def test_with_value_refuses_what_is_not_one_value():
         document.with_value("a", "1\nb 2")
     with pytest.raises(KeyError):
         document.with_value("b", "1")
+
+
+def test_lines_that_end_with_cr_alone_are_named():
+    document = ListDocument.from_text("kopf.achs_nr 1\rkenngr.achs_mode 1\r", "achs1.lis")
+    assert document.entries == ()
+    (found,) = document.diagnostics
+    assert found.id == "20301" and "line ends CR LF or LF" in found.hint
+    assert document.to_bytes() == b"kopf.achs_nr 1\rkenngr.achs_mode 1\r"
+    for text in ("a 1\r\nb 2\r\n", "a 1", "a 1\r", "\r\r"):
+        assert ListDocument.from_text(text).diagnostics == ()

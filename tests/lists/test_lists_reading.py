@@ -70,8 +70,11 @@ def test_printed_table_kinematics_points_at_the_overwriting_lines():
     found = check_lists(MACHINES / "ac_table_as_printed")
     text = (MACHINES / "ac_table_as_printed" / "sda.lis").read_text().splitlines()
     slips = [n for n, line in enumerate(text, 1) if "axis[0].orientation[0]  0" in line]
-    (overwrite,) = [d for d in found if d.id == "N3007"]
-    assert overwrite.line == slips[0]
+    overwrites = [d for d in found if d.id == "N3007"]
+    assert [d.line for d in overwrites] == slips
+    assert [d.hint for d in overwrites] == [
+        f"kinematik[91].axis[{axis}].orientation[0] was probably meant" for axis in (1, 2, 3)
+    ]
     (fault,) = [d for d in found if d.id == "N3009" and "292007" in d.message]
     assert fault.line == slips[-1]
     assert [span.line for _, span in fault.notes][1:] == slips[:-1]

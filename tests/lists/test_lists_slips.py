@@ -79,6 +79,8 @@ SLIPS = [
     ("T6", written(fields(**{f"axis[4].point[{k}]": None for k in range(3)})), "N3010", "no point"),
     ("T7", written(TABLE_INVERTED), "N3010", "chain is walked from the workpiece to the tool"),
     ("T8", written(fields(programming_mode="16", rtcp="0")), "N3010", "CA is 17"),
+    ("T8", written(fields(programming_mode="16")), "N3010", "with rtcp 1 that makes no difference"),
+    ("T8", written(fields(programming_mode="18", rtcp="0")), "N3010", "BC, but the channel has no"),
     ("T10", written(fields(**(LINKAGE | {"linkage_mode": None}))), "N3010", "linkage_mode 1 (P-CH"),
     ("T11", written(fields(**LINKAGE, **TURNED)), "N3010", "direction of axis 1 is not about Y"),
     ("T12", HEAD + "V.KIN[91].ZERO_POSITION[0] 3\n", "110303", "write kinematik[91].zero_"),
@@ -136,11 +138,15 @@ def test_every_slip_is_here() -> None:
 
 LOOKS = [
     (fields(**{"axis[0].orientation[0]": "-1"}), "form a left-handed system"),
-    (fields(**{"axis[0].orientation[0]": "0", "axis[0].orientation[1]": "1"}), "lie in one plane"),
+    (fields(**{"axis[2].orientation[0]": "1", "axis[2].orientation[1]": "1",
+               "axis[2].orientation[2]": "0"}), "lie in one plane"),
     (fields(**{"chain[4]": "3"}), "leaves out axis 4 (A)"),
     (fields(**{"chain[4]": "7"}), "leaves out axis 4 (A)"),
     (fields(**{f"chain[{i}]": str(a) for i, a in enumerate((3, 4, 0, 1, 2))}), "not inverted"),
     (fields(**{"axis[3].orientation[2]": "0", "axis[3].orientation[0]": "1"}), "calls it C"),
+    (fields(**{"axis[1].orientation[0]": "1", "axis[1].orientation[1]": "0"}), "are parallel"),
+    (fields(**{"zero_orientation[2]": "-1"}), "the tool tip is above the flange"),
+    (fields(number_of_axes="4"), "axis 4 of kinematics 91 is described, but number_of_axes is 4"),
     (fields(number_of_axes="6", **{"axis[5].type": "2", "axis[5].orientation[1]": "1",
                                    "chain[5]": "5"}), "the channel has 5 axes, but the kinematics"),
 ]  # fmt: skip
@@ -166,3 +172,49 @@ def test_examples_are_not_blamed() -> None:
     for name in sorted(good):
         found = [d for d in check_lists(MACHINES / name) if d.id not in ("N3004", "N3003")]
         assert [d.message for d in found if d.severity == "warning"] == [], name
+
+
+def line_of(text: str, said: str) -> list[str]:
+    """The lines that are blamed with these words."""
+    found = [d for d in checked(text) if said in d.message]
+    return [d.span.source.line_text(d.line) for d in found if d.span is not None]
+
+
+def test_the_line_with_the_fault_is_blamed() -> None:
+    """Not the first line that takes part in what is wrong."""
+    turned = written(fields(**{"axis[1].orientation[1]": "-1"}))
+    assert line_of(turned, "left-handed") == ["kinematik[91].axis[1].orientation[1] -1"]
+    twice = written(fields(**{"chain[3]": "4"}))
+    assert line_of(twice, "leaves out axis 3 (C)") == ["kinematik[91].chain[4] 4"]
+    outside = written(fields(**{"chain[2]": "5"}))
+    assert line_of(outside, "leaves out axis 2 (Z)") == ["kinematik[91].chain[2] 5"]
+    alike = written(fields(**{"axis[2].orientation[0]": "1", "axis[2].orientation[2]": "0"}))
+    assert line_of(alike, "parallel") == ["kinematik[91].axis[2].orientation[0] 1"]
+
+
+def test_a_number_that_is_missing_is_named() -> None:
+    (found,) = [d for d in checked(written(fields(**{"chain[4]": None}))) if d.id == "N3009"]
+    assert found.message.endswith("the list does not write kinematik[91].chain[4], so the default "
+                                  "0 counts")  # fmt: skip
+
+
+def test_fields_need_the_type_of_the_universal_kinematics() -> None:
+    """FCT-C27 3.2: from V3.00 on the id has to be 91, or the type says so."""
+    text = "trafo[0].id 9\n" + written(fields(), "trafo[0]")
+    (found,) = [d for d in checked(text) if d.id == "N3010"]
+    assert "counts for type 91 only, but kinematics 9 has type 9" in found.message
+    assert found.hint == "write trafo[0].id 91, or trafo[0].type 91"
+    assert checked("trafo[0].id 9\ntrafo[0].type 91\n" + written(fields(), "trafo[0]")) == ()
+    assert checked("trafo[0].id 9\ntrafo[0].param[0] 5\n") == ()
+
+
+def test_one_wrong_index_is_one_complaint() -> None:
+    text = "trafo[10].id 91\n" + written(fields(), "trafo[10]")
+    (found,) = checked(text)
+    lines = text.count("\n") - 1
+    assert found.id == "110303" and f"; {lines} more lines begin with trafo[10]" in found.message
+
+
+def test_complaints_go_from_top_to_bottom() -> None:
+    lines = [d.line for d in checked(PRINTED)]
+    assert lines == sorted(lines)

@@ -225,7 +225,9 @@ class _Check:
                     "292010",
                     f"{name} is {value:g}, but it has to be a whole number",
                     (INDEX_OF_FIELD[name],),
-                    f"{math.floor(value)} or {math.ceil(value)}",
+                    "1 (linear) or 2 (rotary)"
+                    if name.endswith(".type")
+                    else f"{math.floor(value)} or {math.ceil(value)}",
                 )
 
     def _vectors(self) -> Iterator[Fault]:
@@ -290,11 +292,13 @@ class _Check:
         order = [self._get(f"chain[{i}]") for i in range(n)]
         if sorted(order) != list(range(n)):
             missing = [a for a in range(n) if a not in order]
+            wrong = [i for i, a in enumerate(order) if a not in range(n) or a in order[:i]]
+            places = [*wrong, *(i for i in range(n) if i not in wrong)]
             yield Fault(
                 "292010",
                 f"chain is {', '.join(f'{a:g}' for a in order)} and leaves out "
                 f"{', '.join(self._name(a) for a in missing)}",
-                tuple(INDEX_OF_FIELD[f"chain[{i}]"] for i in range(n)),
+                tuple(INDEX_OF_FIELD[f"chain[{i}]"] for i in places),
                 f"each of 0 to {n - 1} exactly once, the axis next to the workpiece first",
             )
 
@@ -341,12 +345,19 @@ class _Check:
         vectors = [self._vector(f"axis[{a}].orientation") for a in range(3)]
         if len(self._axes()) < 3 or not all(vector.any() for _, vector in vectors):
             return
-        if abs(np.linalg.det([_unit(vector) for _, vector in vectors])) < SINGULAR_DETERMINANT:
+        units = [_unit(vector) for _, vector in vectors]
+        if abs(np.linalg.det(units)) < SINGULAR_DETERMINANT:
+            pairs = ((0, 1), (0, 2), (1, 2))
+            alike = [p for p in pairs if abs(units[p[0]] @ units[p[1]]) > 1 - SINGULAR_DETERMINANT]
+            named, what, blamed = [self._name(a) for a in range(3)], "lie in one plane", (0, 1, 2)
+            if alike:
+                first, second = alike[0]
+                named, what = [named[first], named[second]], "are parallel"
+                blamed = (second, first, 3 - first - second)
             yield Fault(
                 "292016",
-                f"the directions of {self._name(0)}, {self._name(1)} and {self._name(2)} "
-                "lie in one plane",
-                tuple(i for indices, _ in vectors for i in indices),
+                f"the directions of {', '.join(named[:-1])} and {named[-1]} {what}",
+                tuple(i for a in blamed for i in vectors[a][0]),
                 "three directions that span the space, such as X, Y and Z",
             )
 
@@ -359,7 +370,8 @@ class _Check:
                 "20658",
                 f"the channel has {self.channel_axis_count} axes, but {why} needs {needed}",
                 (INDEX_OF_FIELD[field],),
-                f"at least {needed} axes in the channel, without a gap",
+                f"at least {needed} axes in the channel, without a gap: gruppe[0].achse"
+                f"[{self.channel_axis_count}] is missing",
             )
 
 

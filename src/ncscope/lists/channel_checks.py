@@ -26,6 +26,7 @@ def check_against_channel(item: KinematicSet, machine: Machine) -> Iterator[Diag
         yield from _other_kind(item, machine, axis)
         yield from _other_letter(item, machine, axis)
     yield from _other_mode(item, machine)
+    yield from _letter_missing(item, machine)
     yield from _overruled_mode(item, machine)
     yield from _comments(item, machine.axis_names)
 
@@ -70,7 +71,7 @@ def _other_mode(item: KinematicSet, machine: Machine) -> Iterator[Diagnostic]:
         for place in range(axis_count(parameters))
         if 3 <= (a := int(parameters.get(f"chain[{place}]"))) < min(MAX_AXES, len(machine.axes))
     ]
-    if letters is None or parameters.get("rtcp") == 1 or "".join(names) != letters[::-1]:
+    if letters is None or "".join(names) != letters[::-1]:
         return
     mode = int(parameters.get("programming_mode"))
     other = next(m for m, text in CLASSIC.items() if text == letters[::-1])
@@ -78,8 +79,24 @@ def _other_mode(item: KinematicSet, machine: Machine) -> Iterator[Diagnostic]:
         f"programming_mode {mode} of kinematics {item.id} is {letters}, but in the chain the axes "
         f"stand as {letters[::-1]}"
     )
+    if parameters.get("rtcp") == 1:
+        message += "; with rtcp 1 that makes no difference"
     hint = f"{letters[::-1]} is {other}; in a table that turns the workpiece {mode} can be meant"
     yield lint(item, "programming_mode", message, hint, note=True)
+
+
+def _letter_missing(item: KinematicSet, machine: Machine) -> Iterator[Diagnostic]:
+    """The complete transformation reads its angles from the axes that the mode names (D-8)."""
+    mode = int(item.parameters.get("programming_mode") or machine.settings.orientation_mode)
+    names = machine.axis_names
+    missing = [c for c in CLASSIC.get(mode, "") if not any(n[:1] == c for n in names)]
+    if missing and item.parameters.get("rtcp") == 0:
+        message = (
+            f"programming_mode {mode} of kinematics {item.id} is {CLASSIC[mode]}, but the channel "
+            f"has no axis {missing[0]}"
+        )
+        hint = f"the axes are {' '.join(names)}; without the letter the axis index counts"
+        yield lint(item, "programming_mode", message, hint)
 
 
 def _overruled_mode(item: KinematicSet, machine: Machine) -> Iterator[Diagnostic]:

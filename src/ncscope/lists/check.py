@@ -16,13 +16,22 @@ def check_lists(path: str | Path) -> tuple[Diagnostic, ...]:
 
 
 def check_loaded(loaded: Loaded) -> tuple[Diagnostic, ...]:
-    """Diagnostics of loading, then of axes, kinematics, and entries without effect."""
-    return (
+    """Diagnostics of loading, axes, kinematics, and entries without effect, list by list and from
+    top to bottom; those without a list come first."""
+    found = (
         *loaded.diagnostics,
         *_assumed_axes(loaded),
         *check_kinematics(loaded),
         *_without_effect(loaded),
     )
+    order: dict[int, int] = {}
+
+    def place(item: Diagnostic) -> tuple[int, int]:
+        if item.span is None:
+            return -1, 0
+        return order.setdefault(id(item.span.source), len(order)), item.span.start
+
+    return tuple(sorted(found, key=place))
 
 
 def _assumed_axes(loaded: Loaded) -> Iterator[Diagnostic]:

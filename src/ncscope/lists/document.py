@@ -111,6 +111,8 @@ class _Parser:
 
     def document(self) -> ListDocument:
         offset = self._after_mark()
+        if self._has_no_line_end(offset):
+            return ListDocument(self.source, (), tuple(self.found))
         for line in self.source.text[offset:].split("\n"):
             if not self._line(line.rstrip("\r"), offset):
                 break
@@ -126,6 +128,16 @@ class _Parser:
             hint = "save the list as ANSI (Latin-1) text"
             self.found.append(diagnostic("21798", span, message, hint))
         return len(mark)
+
+    def _has_no_line_end(self, offset: int) -> bool:
+        """Reports lines that end with CR alone: all of them are one line to the control."""
+        text = self.source.text[offset:].strip()
+        if "\n" in text or "\r" not in text:
+            return False
+        hint = "save the list with line ends CR LF or LF; in this one they are CR alone"
+        span = Span(self.source, offset, offset + 1)
+        self.found.append(diagnostic("20301", span, "the list has no end of line", hint))
+        return True
 
     def _line(self, line: str, offset: int) -> bool:
         """Take one line; False when it ends the list."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import takewhile
 
 from ncscope.diagnostics import Diagnostic, diagnostic
 from ncscope.kinematics.chain import Fault, validate
@@ -41,11 +42,26 @@ def check_kinematics(loaded: Loaded) -> Iterator[Diagnostic]:
     for item in loaded.kinematic_sets:
         parameters = used[item.slot.step].get(item.id)
         overruled = parameters is None or parameters.values is not item.parameters.values
-        if overruled or parameters is None or parameters.type != UNIVERSAL:
+        if overruled or parameters is None:
+            continue
+        if parameters.type != UNIVERSAL:
+            yield from _fields_of_another_type(item, parameters.type)
             continue
         yield from _faults(item, machine)
         yield from _unusual(item)
         yield from check_against_channel(item, machine)
+
+
+def _fields_of_another_type(item: KinematicSet, type: int) -> Iterator[Diagnostic]:
+    """FCT-C27 3.2: from V3.00 on the id of the universal kinematics has to be 91."""
+    named = [w[-1] for w in item.parameters.origins.values() if ".param[" not in w[-1].text.lower()]
+    if named:
+        slot, old = item.slot.spelling, item.slot.fixed_id is not None
+        message = (
+            f"{named[0].text} counts for type 91 only, but kinematics {item.id} has type {type}"
+        )
+        hint = "write kinematik[91]" if old else f"write {slot}.id 91, or {slot}.type 91"
+        yield diagnostic("N3010", named[0], message, hint)
 
 
 def _faults(item: KinematicSet, machine: Machine) -> Iterator[Diagnostic]:
@@ -61,15 +77,18 @@ def _faults(item: KinematicSet, machine: Machine) -> Iterator[Diagnostic]:
 
 def _unwritten(item: KinematicSet, fault: Fault) -> str:
     """Says that the list lacks the number to blame: its default 0 is what is wrong."""
-    missing = [i for i in fault.indices if i not in item.parameters.origins]
-    if not missing or len(missing) < len(fault.indices):
+    missing = list(takewhile(lambda i: i not in item.parameters.origins, fault.indices))
+    if not missing:
         return ""
-    names = " and ".join(f"{item.slot.spelling}.{FIELD_OF_INDEX[i]}" for i in missing[:3])
-    return f"; the list does not write {names}, so the default 0 counts"
+    names = [f"{item.slot.spelling}.{FIELD_OF_INDEX[i]}" for i in missing[:3]]
+    named = ", ".join(names[:-1]) + (" and " if names[1:] else "") + names[-1]
+    return f"; the list does not write {named}, so the default 0 counts"
 
 
 def _unusual(item: KinematicSet) -> Iterator[Diagnostic]:
     yield from _exchanged_zero(item)
+    yield from _tool_upside_down(item)
+    yield from _axes_left_over(item)
     yield from _left_handed(item)
     for axis in range(axis_count(item.parameters)):
         yield from _direction_length(item, axis)
@@ -82,10 +101,18 @@ def _unusual(item: KinematicSet) -> Iterator[Diagnostic]:
 
 
 def _left_handed(item: KinematicSet) -> Iterator[Diagnostic]:
-    if _triple_product(*(direction_of(item.parameters, axis) for axis in range(3))) < 0:
-        message = f"the linear axes of kinematics {item.id} form a left-handed system"
-        hint = "check the signs of axis[0..2].orientation"
-        yield lint(item, "axis[0].orientation[0]", message, hint)
+    directions = [direction_of(item.parameters, axis) for axis in range(3)]
+    if _triple_product(*directions) >= 0:
+        return
+    largest = [max(range(3), key=lambda k: abs(d[k])) for d in directions]
+    message = f"the linear axes of kinematics {item.id} form a left-handed system"
+    hint, blamed = "two of the three are exchanged, or one has the wrong sign", 0
+    negative = [axis for axis in range(3) if directions[axis][largest[axis]] < 0]
+    if sorted(largest) == largest and negative:
+        blamed = negative[0]
+        named = " and ".join(f"axis {axis} points along -{'XYZ'[axis]}" for axis in negative)
+        hint = f"{named}; see whether that is meant"
+    yield lint(item, f"axis[{blamed}].orientation[{largest[blamed]}]", message, hint)
 
 
 def _direction_length(item: KinematicSet, axis: int) -> Iterator[Diagnostic]:
@@ -118,7 +145,9 @@ def _not_inverted(item: KinematicSet) -> Iterator[Diagnostic]:
                 f"rotary axis {axis} of kinematics {item.id} is on the workpiece side and its "
                 "direction looks not inverted"
             )
-            hint = "the direction of an axis before the machine origin is multiplied by -1"
+            meant = ", ".join(f"{-c + 0.0:g}" for c in direction)
+            hint = "the direction of an axis before the machine origin is multiplied by -1; for a "
+            hint += f"table that turns mathematically positive write {meant}"
             largest = max(range(3), key=lambda k: abs(direction[k]))
             yield lint(item, f"axis[{axis}].orientation[{largest}]", message, hint)
 
@@ -129,7 +158,7 @@ def _turned_linkage(item: KinematicSet) -> Iterator[Diagnostic]:
         return
     for axis in range(3):
         direction = direction_of(item.parameters, axis)
-        if direction[axis] < max(map(abs, direction)) or direction[axis] <= 0:
+        if any(direction) and not direction[axis] >= max(map(abs, direction)):
             message = (
                 f"kinematics {item.id} has a linkage, but the direction of axis {axis} is not "
                 f"about {'XYZ'[axis]}"
@@ -149,6 +178,34 @@ def _exchanged_zero(item: KinematicSet) -> Iterator[Diagnostic]:
         )
         hint = "zero_orientation is the direction from tip to flange, zero_position in 0.1 um"
         yield lint(item, "zero_position[0]", message, hint)
+
+
+def _tool_upside_down(item: KinematicSet) -> Iterator[Diagnostic]:
+    """FCT-C27 3.1 comments (0, 0, 1) as "tool points in Z direction"; its formula says tip to
+    flange."""
+    direction = [item.parameters.get(f"zero_orientation[{k}]") for k in range(3)]
+    if direction[2] < 0 and -direction[2] >= max(map(abs, direction)):
+        message = (
+            f"zero_orientation of kinematics {item.id} points down, so the tool tip is above the "
+            "flange"
+        )
+        hint = "the direction goes from the tip to the flange: 0, 0, 1 for a tool that hangs down"
+        yield lint(item, "zero_orientation[2]", message, hint, note=True)
+
+
+def _axes_left_over(item: KinematicSet) -> Iterator[Diagnostic]:
+    """Axes behind number_of_axes that the list describes nevertheless."""
+    count = item.parameters.get("number_of_axes")
+    if not (count.is_integer() and 3 <= count < MAX_AXES):
+        return
+    for axis in range(int(count), MAX_AXES):
+        if item.parameters.get(f"axis[{axis}].type"):
+            message = (
+                f"axis {axis} of kinematics {item.id} is described, but number_of_axes is "
+                f"{count:g}: it takes no part"
+            )
+            hint = f"write {item.slot.spelling}.number_of_axes {axis + 1}, or leave the axis out"
+            yield lint(item, f"axis[{axis}].type", message, hint)
 
 
 def _point_of_linear_axis(item: KinematicSet, axis: int) -> Iterator[Diagnostic]:

@@ -10,7 +10,7 @@ Source: FCT-C27 3.2 and 3.5, P-CHAN-00262, -00263, -00285 to -00295, -00829.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from ncscope.diagnostics import Diagnostic, Span, diagnostic
@@ -78,8 +78,9 @@ def read_sets(
     """The data sets in the order in which their slots first appear, and overwritten numbers."""
     sets: dict[Slot, KinematicSet] = {}
     found: list[Diagnostic] = []
+    overwritten: list[tuple[int, bool, Diagnostic]] = []
     readings = tuple(readings)
-    for reading in readings:
+    for place, reading in enumerate(readings):
         split = split_key(reading.entry.key)
         if split is None or reading.value is None:
             continue
@@ -94,9 +95,9 @@ def read_sets(
         if index is None:
             sets[slot] = _with_property(current, field, reading)
         else:
-            found.extend(_overwritten(current, index, reading))
+            overwritten.extend((place, *item) for item in _overwritten(current, index, reading))
             sets[slot] = _with_number(current, index, reading)
-    return tuple(sets.values()), _with_meant_index(found, readings)
+    return tuple(sets.values()), (*found, *_with_meant_index(overwritten, readings))
 
 
 def by_id(
@@ -140,17 +141,19 @@ def _with_number(item: KinematicSet, index: int, reading: Reading) -> KinematicS
     return replace(item, parameters=item.parameters.with_value(index, value, origin))
 
 
-def _overwritten(item: KinematicSet, index: int, reading: Reading) -> tuple[Diagnostic, ...]:
+def _overwritten(
+    item: KinematicSet, index: int, reading: Reading
+) -> Iterator[tuple[bool, Diagnostic]]:
+    """Whether the entry repeats the value of earlier lines of its list, and the warning."""
     span = reading.entry.key_span
     writers = [w for w in item.parameters.origins.get(index, ()) if w.source is span.source]
     old, new = item.parameters.values[index], float(reading.value or 0)
-    if not writers or old == new:
-        return ()
-    return (overwrite_warning(reading, f"{old:g}", tuple(writers)),)
+    if writers:
+        yield old == new, overwrite_warning(reading, f"{old:g}", tuple(writers))
 
 
 def overwrite_warning(reading: Reading, old: str, writers: tuple[Span, ...]) -> Diagnostic:
-    """N3007: an entry replaces the different value `old` of earlier lines."""
+    """N3007: an entry replaces the value `old` of earlier lines."""
     message = f"{reading.entry.key} {reading.entry.value_text} overwrites the earlier value {old}"
     hint = "the last entry counts; check the index numbers of the key, or delete one of the lines"
     notes = tuple(("written before here", span) for span in writers)
@@ -158,20 +161,20 @@ def overwrite_warning(reading: Reading, old: str, writers: tuple[Span, ...]) -> 
 
 
 def _with_meant_index(
-    found: Iterable[Diagnostic], readings: tuple[Reading, ...]
-) -> tuple[Diagnostic, ...]:
+    found: Iterable[tuple[int, bool, Diagnostic]], readings: tuple[Reading, ...]
+) -> Iterator[Diagnostic]:
     """Overwritten numbers of an axis that stand among lines of another axis get its index as hint.
 
     The lists of FCT-C27 4.1.2 and 4.1.3 have this slip: `axis[0]` in the blocks of other axes.
+    A line that only writes the same value again is no fault anywhere else.
     """
-    places = {id(r.entry.key_span): place for place, r in enumerate(readings)}
     written = {r.entry.key.lower() for r in readings}
-    result = []
-    for item in found:
-        place = places.get(id(item.span))
-        meant = "" if place is None else _meant_key(readings, place, written)
-        result.append(replace(item, hint=f"{meant} was probably meant") if meant else item)
-    return tuple(result)
+    for place, repeats, item in found:
+        meant = _meant_key(readings, place, written)
+        if meant:
+            yield replace(item, hint=f"{meant} was probably meant")
+        elif not repeats:
+            yield item
 
 
 def _meant_key(readings: tuple[Reading, ...], place: int, written: set[str]) -> str:

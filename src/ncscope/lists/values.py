@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ncscope.diagnostics import Diagnostic, diagnostic
 from ncscope.lists import table
@@ -56,19 +56,23 @@ def read_values(
     """The known entries of a list with their values, and what is wrong with the others."""
     readings: list[Reading] = []
     found: list[Diagnostic] = list(document.diagnostics)
+    outside: dict[str, list[Diagnostic]] = {}
     for entry in document.entries:
         row = table.find(list_kind, entry.key)
         if row is None:
             found.append(_unknown_key(entry, list_kind))
             continue
-        complaint = _index_complaint(entry, row)
-        if complaint:
-            found.append(complaint)
+        place = _wrong_index(entry, row)
+        if place is not None:
+            outside.setdefault(_up_to_index(entry, place), []).append(
+                _index_complaint(entry, row, place)
+            )
             continue
         found.extend(_spelling(entry, row))
         value, complaints = convert(entry, row)
         found.extend(complaints)
         readings.append(Reading(row, entry, value))
+    found.extend(_counted(items, prefix) for prefix, items in outside.items())
     return tuple(readings), tuple(found)
 
 
@@ -224,23 +228,44 @@ def _with_indices(key: str, entry: Entry) -> str:
     return re.sub(r"\[\]", lambda _: f"[{next(numbers)}]", key)
 
 
-def _index_complaint(entry: Entry, row: ParameterRow) -> Diagnostic | None:
+def _wrong_index(entry: Entry, row: ParameterRow) -> int | None:
+    """The place of the first index number that does not exist, None when all do."""
     offset = len(entry.indices) - len(row.sizes)
     for place, (index, size) in enumerate(zip(entry.indices[offset:], row.sizes, strict=True)):
         old_id = place == 0 and entry.key.lower().startswith("kinematik[")
-        if size is None or index < size or old_id:
-            continue
-        message = f"{_named(entry, row)}: index {index} does not exist; it is not taken over"
-        hint = f"the indices are 0 to {size - 1}"
-        return diagnostic("110303", entry.key_span, message, hint)
+        if size is not None and index >= size and not old_id:
+            return offset + place
     return None
+
+
+def _index_complaint(entry: Entry, row: ParameterRow, place: int) -> Diagnostic:
+    size = row.sizes[place - len(entry.indices) + len(row.sizes)]
+    index = entry.indices[place]
+    message = f"{_named(entry, row)}: index {index} does not exist; it is not taken over"
+    hint = f"the indices are 0 to {(size or 1) - 1}"
+    return diagnostic("110303", entry.key_span, message, hint)
+
+
+def _up_to_index(entry: Entry, place: int) -> str:
+    """The key up to its wrong index number: lines that share it have one fault in common."""
+    numbers = list(re.finditer(r"\[\d+\]", entry.key))
+    return entry.key[: numbers[place].end()].lower()
+
+
+def _counted(items: list[Diagnostic], prefix: str) -> Diagnostic:
+    """The first of several complaints about one index number, with how many lines have it."""
+    first, more = items[0], len(items) - 1
+    if not more:
+        return first
+    lines = "1 more line begins" if more == 1 else f"{more} more lines begin"
+    return replace(first, message=f"{first.message}; {lines} with {prefix}")
 
 
 def _spelling(entry: Entry, row: ParameterRow) -> tuple[Diagnostic, ...]:
     right = _with_indices(row.key, entry)
     if table.pattern(entry.key) == row.key and entry.key[:1] != "K":
         return ()
-    message = f"{entry.key} is written with other upper and lower case than the control's {row.key}"
+    message = f"{entry.key} is written with other upper and lower case than the control writes it"
     return (diagnostic("N3011", entry.key_span, message, f"write {right}"),)
 
 
