@@ -80,7 +80,7 @@ def test_commands_take_the_file() -> None:
     kin = call("kin", "forward", "X=200", "Y=200", "Z=200", *options)
     assert kin.exit_code == 0 and "delta" in kin.stdout
     far = call("kin", "inverse", "X=400", *options)
-    assert far.exit_code == 1 and "N2602: LinearDelta.inverse has no solution" in far.stderr
+    assert far.exit_code == 1 and "N2602: the kinematics has no solution" in far.stdout
     missing = call("run", EXAMPLES / "programs" / "delta.nc", "--machine", LISTS)
     assert missing.exit_code == 1 and "--kinematics FILE.py" in missing.stderr
     nowhere = call("run", EXAMPLES / "programs" / "delta.nc", "--kinematics", "no.py")
@@ -201,3 +201,16 @@ def test_installed_classes_come_by_entry_point(monkeypatch: pytest.MonkeyPatch) 
     assert ncscope.with_user_kinematics(ncscope.Machine()) == (ncscope.Machine(), ())
     file, _ = ncscope.with_user_kinematics(lists, DELTA)
     assert file.kinematics[500].inverse([0, 0, 0]) == pytest.approx([200, 200, 200])
+
+
+def test_a_table_keeps_the_rows_that_can_be_reached(tmp_path: Path) -> None:
+    poses = tmp_path / "poses.csv"
+    poses.write_text("X,Y,Z\n0,0,0\n4000,0,0\n-40,0,0\n")
+    options = ["--machine", LISTS, "--kinematics", DELTA, "--format", "csv"]
+    done = call("kin", "inverse", "--poses", poses, *options)
+    lines = done.stdout.splitlines()
+    assert done.exit_code == 1 and "1 of 3 poses have no solution" in done.stderr
+    assert [line.rsplit(",", 1)[1] for line in lines[1:]] == ["", "N2602", ""]
+    alone = call("kin", "inverse", "X=-40", *options).stdout.splitlines()[1]
+    axes = [[float(v) for v in line.split(",")[-6:-3]] for line in (lines[3], alone)]
+    assert axes[0] == pytest.approx(axes[1])

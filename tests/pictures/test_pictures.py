@@ -272,7 +272,7 @@ def test_neither_program_nor_machine():
 
 def test_machines_without_a_chain():
     done = call("plot", "--machine", MACHINES / "xyz", "-o", "x.svg")
-    assert done.exit_code == 1 and "no kinematics" in done.output
+    assert done.exit_code == 2 and "no kinematics" in done.output
     done = call("plot", "--machine", MACHINES / "ca_head", "--id", 7, "-o", "x.svg")
     assert done.exit_code == 2 and "91" in done.output
 

@@ -76,8 +76,43 @@ def test_what_a_library_head_lacks_is_named(text: str, id: str, said: str) -> No
 
 
 @pytest.mark.parametrize(
+    ("id", "reason", "help"),
+    [
+        (58, "FCT-C27 4.1.2 describes it", "describe its axes instead"),
+        (11, "inclined by 45 degrees", "describe its axes instead"),
+        (45, "has no three linear axes", "a Python class of your own"),
+        (19, "three struts", "a Python class of your own"),
+        (70, "no public table of its parameters is known", "describe its axes instead"),
+    ],
+)
+def test_types_that_cannot_be_founded_are_refused(id: int, reason: str, help: str) -> None:
+    Path("p.lis").write_text(f"kinematik[{id}].param[0] 5\n")
+    result = call("p.lis", "--kin", str(id))
+    said = " ".join(result.stderr.split())
+    assert result.exit_code == 1 and result.stdout == ""
+    assert "N3502" in said and reason in said and help in said
+
+
+def test_a_type_counts_before_the_id() -> None:
+    """P-CHAN-00829: several data sets of one type lie under different ids."""
+    Path("p.lis").write_text("trafo[0].id 12\ntrafo[0].type 9\ntrafo[0].param[0] 77\n")
+    assert "trafo[0].zero_position[2]        -77\n" in call("p.lis", "--kin", "9").stdout
+    Path("p.lis").write_text("trafo[0].id 9\ntrafo[0].type 22\ntrafo[0].param[0] 77\n")
+    assert "no parameters of kinematics 9" in call("p.lis", "--kin", "9").stderr
+
+
+def test_capitals_become_the_spelling_of_the_control() -> None:
+    Path("a.lis").write_bytes(b"Kinematik[91].rtcp 1 # \xfc\r\nkinematik[91].chain[0] 0\r\n")
+    call("a.lis", "--to", "v3", "--out", "b.lis")
+    assert b"\r\ntrafo[0].rtcp 1 # \xfc\r\n" in b"\r\n" + Path("b.lis").read_bytes()
+    call("b.lis", "--to", "v2", "--out", "c.lis")
+    assert Path("c.lis").read_bytes() == Path("a.lis").read_bytes().replace(b"K", b"k")
+
+
+@pytest.mark.parametrize(
     ("arguments", "said"),
     [
+        ([".", "--to", "v3"], "is a folder; give one of its lists"),
         (["no.lis", "--to", "v3"], "there is no list no.lis"),
         (["."], "what to?"),
         ([".", "--fields", "--param"], "are opposites"),

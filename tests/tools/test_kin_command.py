@@ -47,6 +47,69 @@ def head_tip(x: float, y: float, z: float, c: float, a: float, length: float) ->
     return [x + px + 0.08, y + py + 0.12, z + pz]
 
 
+@pytest.mark.parametrize("length", ["nan", "inf"])
+def test_a_tool_length_is_a_number(length: str) -> None:
+    result = call("forward", "X=1", "-m", HEAD, "--tool-length", length)
+    assert result.exit_code == 2 and "write a length in mm" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b"X,Y,Z,C,A\n", "has no rows below the names of its columns"),
+        (b"X,\x00\x8f\x01\r7,Z\n1,2,3\n", "it holds no text"),
+        (b"X,Y\n1,\r2\n1,zwei\n", "N4201"),
+        (b"", "it is empty"),
+    ],
+)
+def test_files_that_are_no_table_are_named(data: bytes, said: str) -> None:
+    Path("p.csv").write_bytes(data)
+    for command in (["inverse", "-m", HEAD], ["compare", HEAD, HEAD]):
+        result = call(*command, "--poses", "p.csv")
+        assert result.exit_code == 1 and said in result.stderr and result.stdout == ""
+
+
+def test_both_poses_of_one_direction() -> None:
+    """A complete transformation: the words mean the same in both poses, twins C+180 and -A."""
+    text = (HEAD / "sda.lis").read_text().replace("kinematik[91].rtcp 1", "kinematik[91].rtcp 0")
+    Path("sda.lis").write_text(text)
+    found = rows(call("inverse", "C=30", "A=45", "--both", "-m", "sda.lis", "--format", "csv"))
+    assert [float(r["pcs_C"]) for r in found] == [30, 30]
+    assert [float(r["pcs_A"]) for r in found] == [45, 45]
+    assert [float(r["acs_C"]) for r in found] == pytest.approx([30, -150])
+    assert [float(r["acs_A"]) for r in found] == pytest.approx([45, -45])
+
+
+def test_the_pole_has_one_pose() -> None:
+    result = call("inverse", "--tip", "X=1", "Y=2", "Z=3", "--direction", "0", "0", "1",
+                  "--both", "-m", HEAD, "--format", "csv")  # fmt: skip
+    assert len(rows(result)) == 1
+
+
+def test_a_second_step_has_a_kinematics_too() -> None:
+    text = (HEAD / "sda.lis").read_text()
+    second = "".join(
+        line.replace("kinematik[91]", "kin_step[1].trafo[0]") + "\n"
+        for line in text.splitlines()
+        if line.startswith("kinematik")
+    )
+    second = second.replace("zero_position[0] 12000", "zero_position[0] 22000")
+    Path("sda.lis").write_text(
+        text.replace("Ende\n", "") + "kin_step[1].trafo[0].id 92\nkin_step[1].trafo[0].type 91\n"
+        + second
+    )  # fmt: skip
+    tips = [
+        float(rows(call("forward", "X=5", "-m", "sda.lis", "--format", "csv", *id))[0]["mcs_X"])
+        for id in ([], ["--id", "92"])
+    ]
+    assert tips == pytest.approx([6.2, 7.2])
+
+
+def test_huge_numbers_do_not_widen_the_table() -> None:
+    result = call("forward", "X=1e300", "-m", HEAD)
+    assert "1e+300" in result.stdout and max(map(len, result.stdout.splitlines())) < 120
+
+
 def test_forward_of_words_is_the_textbook_equation() -> None:
     result = call(
         "forward", "--axes", "X=1", "Y=-2", "C=30", "A=-20.5",

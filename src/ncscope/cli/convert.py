@@ -43,6 +43,8 @@ def convert_command(
         fail("--kin writes named fields; use --param on its result")
     if kin is None and not (to or fields or param):
         fail("what to? give --to v3, --to v2, --fields, --param or --kin ID")
+    if path.is_dir():
+        fail(f"{path} is a folder; give one of its lists, such as {path / 'sda.lis'}")
     if not path.is_file():
         fail(f"there is no list {path}")
     try:

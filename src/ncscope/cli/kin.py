@@ -183,8 +183,9 @@ def _write(
     from ncscope.views import poses as view
 
     def explain(status: int) -> tuple[str, str]:
-        assert isinstance(kin, UniversalKinematics)  # others raise for rows without a solution
-        return explain_status(kin, status)
+        if isinstance(kin, UniversalKinematics):
+            return explain_status(kin, status)
+        return "N2602", "the kinematics has no solution for this position"
 
     failed = int((found.status != 0).sum())
     if shape == "table":

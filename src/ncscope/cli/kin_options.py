@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -22,7 +23,18 @@ class KinFormat(StrEnum):
 IdOption = Annotated[
     int | None, typer.Option("--id", help="Kinematic id; needed where there are several.")
 ]
-LengthOption = Annotated[float, typer.Option("--tool-length", help="Tool length, mm.")]
+
+
+def finite_length(value: float) -> float:
+    """The length of --tool-length; ends the process for nan and infinity."""
+    if not math.isfinite(value):
+        fail(f"--tool-length {value:g}: write a length in mm")
+    return value
+
+
+LengthOption = Annotated[
+    float, typer.Option("--tool-length", help="Tool length, mm.", callback=finite_length)
+]
 PosesOption = Annotated[
     Path | None, typer.Option("--poses", help="CSV or Parquet file with a column for each axis.")
 ]

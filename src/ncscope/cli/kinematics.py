@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -11,7 +12,7 @@ from ncscope.cli.inputs import read_machine
 from ncscope.cli.screen import fail, show_diagnostics
 
 if TYPE_CHECKING:
-    from ncscope.kinematics import KinematicStep, UniversalKinematics
+    from ncscope.kinematics import KinematicsError, KinematicStep, UniversalKinematics
     from ncscope.machine import Machine
 
 UNIVERSAL = 91
@@ -40,28 +41,40 @@ def chosen_kinematics(
     show_diagnostics(d for d in found if d.severity != "note")
     if any(d.is_error for d in found):
         raise typer.Exit(1)
-    id = _id(machine, path, id)
+    id = chosen_id(machine, path, id)
     try:
-        return machine.kinematics[id], machine.axis_names
+        return kinematics_of_any_step(machine, id), machine.axis_names
     except KinematicsError as error:
         _explain(path, id, error)
 
 
-def _id(machine: Machine, path: Path, id: int | None) -> int:
-    known = sorted(machine.kinematic_parameters)
+def chosen_id(machine: Machine, path: Path, id: int | None) -> int:
+    """The id of --id, else the default of the lists, else 91, else the first one; ends the
+    process when there is none."""
+    known = sorted({**machine.second_step_parameters, **machine.kinematic_parameters})
     if not known:
         fail(f"the lists of {path} configure no kinematics")
     default = machine.settings.default_kinematic_id
-    for candidate in (default, UNIVERSAL, *known[:1]) if id is None else (id,):
+    first = sorted(machine.kinematic_parameters)
+    for candidate in (default, UNIVERSAL, *first, *known) if id is None else (id,):
         if candidate in known:
             return candidate
     fail(f"kinematics {id} is not configured; {path} has {', '.join(map(str, known))}")
 
 
-def _explain(path: Path, id: int, error: Exception) -> NoReturn:
+def kinematics_of_any_step(machine: Machine, id: int) -> KinematicStep:
+    """The kinematics of the first step with this id, else that of the second. Raises
+    KinematicsError for parameters that describe none."""
+    if id not in machine.kinematic_parameters:
+        machine = replace(machine, kinematic_parameters=machine.second_step_parameters)
+    return machine.kinematics[id]
+
+
+def _explain(path: Path, id: int, error: KinematicsError) -> NoReturn:
     """What `check` says about this kinematics, with the lines of the list."""
     from ncscope.lists import check_lists
 
     faults = [d for d in check_lists(path) if d.id == "N3009"]
     show_diagnostics(faults)
-    fail(f"kinematics {id} cannot be used: {error}", code=1)
+    hint = f"; {error.hint}" if error.hint and not faults else ""
+    fail(f"kinematics {id} cannot be used: {error}{hint}", code=1)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from ncscope.cli.inputs import read_machine, run_program
+from ncscope.cli.kin_options import finite_length
+from ncscope.cli.kinematics import chosen_id, kinematics_of_any_step
 from ncscope.cli.options import (
     BlocksOption,
     ClampOption,
@@ -22,9 +24,6 @@ from ncscope.cli.options import (
 )
 from ncscope.cli.screen import fail, show_diagnostics
 from ncscope.cli.settings import read_settings
-
-if TYPE_CHECKING:
-    from ncscope.machine import Machine
 
 FORMS = (".png", ".svg", ".html")
 SAMPLE = 0.02
@@ -46,7 +45,10 @@ def plot_command(
     kinematics: KinematicsOption = None,
     id: Annotated[int | None, typer.Option("--id", help="Id of the kinematics to draw.")] = None,
     tool_length: Annotated[
-        float, typer.Option("--tool-length", help="Length of the tool that is drawn, mm.")
+        float,
+        typer.Option(
+            "--tool-length", help="Length of the tool that is drawn, mm.", callback=finite_length
+        ),
     ] = 0.0,
     clamp: ClampOption = None,
     skip: SkipOption = "",
@@ -129,26 +131,26 @@ def write_picture(out: Path, data: bytes) -> None:
 
 def _machine_picture(path: Path, id: int | None, tool_length: float, form: str) -> bytes:
     from ncscope.kinematics import KinematicsError
+    from ncscope.kinematics.building import UNIVERSAL, type_of
     from ncscope.kinematics.universal import UniversalKinematics
     from ncscope.views.pictures.files import chain_picture
 
     lists, found = read_machine(path)
     show_diagnostics(d for d in found if d.severity != "note")
-    chosen = _chosen(lists, id, path)
+    chosen = chosen_id(lists, path, id)
+    sets = {**lists.second_step_parameters, **lists.kinematic_parameters}
+    if type_of(sets[chosen]) != UNIVERSAL:
+        fail(
+            f"{path}: kinematics {chosen} is no universal kinematics (91), so it has no chain to "
+            "draw",
+            code=1,
+        )
     try:
-        model = lists.kinematics[chosen]
+        model = kinematics_of_any_step(lists, chosen)
     except KinematicsError as error:
         fail(f"{path}: {error}", code=1)
-    if not isinstance(model, UniversalKinematics):
-        fail(f"{path}: kinematics {chosen} is no universal kinematics (91), so it has no chain")
+    assert isinstance(model, UniversalKinematics)
+    if len(sets) > 1:
+        known = ", ".join(map(str, sorted(sets)))
+        typer.echo(f"kinematics {chosen} of {known} is drawn; --id chooses another", err=True)
     return chain_picture(model, lists.name, tool_length, form)
-
-
-def _chosen(machine: Machine, id: int | None, path: Path) -> int:
-    ids = sorted(machine.kinematic_parameters)
-    if not ids:
-        fail(f"{path} describes no kinematics to draw", code=1)
-    if id is not None and id not in ids:
-        fail(f"--id {id}: the lists have {', '.join(map(str, ids))}")
-    default = machine.settings.default_kinematic_id
-    return id if id is not None else default if default in ids else ids[0]

@@ -37,8 +37,8 @@ def read_words(words: Iterable[str], names: Sequence[str], what: str) -> dict[st
     """`X=10` words by name; ends the process when a word is none or names nothing known."""
     found: dict[str, float] = {}
     for word in words:
-        name, _, text = word.partition("=")
-        if name not in names:
+        name, equals, text = word.partition("=")
+        if name not in names or not equals:
             fail(f"{what} {word}: write NAME=NUMBER with a name of {' '.join(names)}")
         if name in found:
             fail(f"{what}: {name} stands twice")

@@ -24,6 +24,10 @@ from ncscope.kinematics.step import KinematicsError
 UNITS_PER_DEGREE = 10_000.0
 _PAGES = "isg-stuttgart.de/fileadmin/kernel/kernel-html/en-GB/"
 _ANGLE = "ID 91 has no angle offset, and the sign of this one is not published"
+_MEMBERS = "infosys.beckhoff.com, tf5240_couple_kinematics 654305547"
+_TITLE_ONLY = f"only its title is published ({_MEMBERS})"
+NO_CHAIN = (15, 19, 210)
+_ROBOT = f"it is a robot ({_MEMBERS}) and has no three linear axes"
 _DIRECTION = "its values are not published; only 0 can be taken over"
 
 Offsets = Callable[[int], float]
@@ -79,8 +83,15 @@ def complaints(id: int, param: Mapping[int, float]) -> tuple[tuple[int, str], ..
 def why_not(id: int) -> str:
     """Why a type is not in `LIBRARY`."""
     known = ", ".join(str(i) for i in LIBRARY)
-    reason = NOT_DETERMINED.get(id, "no table of its parameters is published")
+    reason = NOT_DETERMINED.get(id, "no public table of its parameters is known")
     return f"kinematics {id} cannot be turned into ID 91: {reason}; possible are {known}"
+
+
+def instead(id: int) -> str:
+    """What a user can do for a type that is not in `LIBRARY`."""
+    if NOT_DETERMINED.get(id) == _ROBOT or id in NO_CHAIN:
+        return "it takes a Python class of your own (--kinematics FILE.py, ids 500 to 999)"
+    return "describe its axes instead: a direction for each, and a point for rotary ones"
 
 
 def _value_complaints(id: int, param: Mapping[int, float]) -> list[tuple[int, str]]:
@@ -201,15 +212,31 @@ LIBRARY: Mapping[int, LibraryKinematics] = {
 """Types that can be turned into ID 91."""
 
 NOT_DETERMINED: Mapping[int, str] = {
+    5: _TITLE_ONLY,
+    6: _TITLE_ONLY,
+    7: _TITLE_ONLY,
     8: f"its table ({_PAGES}292660363.html) does not say along which axis the tool lies",
     10: "its table (infosys.beckhoff.com, tccnckintrans 15299441547) does not say along which "
     "axis the tool lies",
+    11: "FCT-C27 5.2.2 says that its B axis is inclined by 45 degrees, but no offset is published",
+    15: "it machines the surface of a cylinder (#CYL; infosys.beckhoff.com, "
+    "tf5240_kinematic_transformation 1272858251) and is no chain of axes",
     16: f"its table ({_PAGES}292683787.html) does not say from where to where offsets run",
+    19: f"three struts carry its workpiece ({_PAGES}292695563.html), which is no chain of axes",
     23: f"its table ({_PAGES}292710283.html) does not say in which sense the table turns",
     33: f"its table ({_PAGES}292731403.html) does not say in which plane the head is inclined",
     34: f"its table ({_PAGES}292739083.html) does not say in which sense the table turns",
+    35: _ROBOT,
+    45: _ROBOT,
+    58: "FCT-C27 4.1.2 describes it as a table with A and C, but no offset is published",
     82: f"its table ({_PAGES}292834187.html) does not say in which sense the table turns",
-    90: "its tables (infosys.beckhoff.com, tf5290_cnc_cutting_plus) do not say the sense of the "
-    "offsets to the tool",
+    90: "its tables (infosys.beckhoff.com, tf5290_cnc_cutting_plus 297538955, 297533579, 297544331 "
+    "and 297541643) run from the machine to the tool in some rows and the other way in others, and "
+    "do not say the sense of the offsets to the tool",
+    93: "its example (infosys.beckhoff.com, tf5290_cnc_cutting_plus 360249611) does not say the "
+    "sense of the offsets to the tool",
+    96: _ROBOT,
+    210: "it couples other kinematics; convert its members",
+    213: _ROBOT,
 }
 """Types whose published table leaves more than one reading."""

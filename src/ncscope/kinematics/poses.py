@@ -6,7 +6,7 @@ Leaves: `Poses`, which knows all of them with the pose number and the condition 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -18,8 +18,12 @@ from ncscope.kinematics.jacobian import conditions
 from ncscope.kinematics.orientation import OrientationSolver
 from ncscope.kinematics.step import KinematicsError, KinematicStep
 from ncscope.kinematics.universal import UniversalKinematics
+from ncscope.kinematics.user import NO_SOLUTION
 
 Array = NDArray[np.float64]
+
+SAME_AXES = 1e-9
+"""mm and degrees: axis values that differ by less are one solution."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,7 +73,9 @@ def poses_of_program(
     other, other_status = _turned(kin, found.tip, found.direction, tool_length, near, -found.pose)
     other_status = np.where(status, status, other_status).astype(np.int8)
     _keep_other_axes(kin, other, rows)
-    return _together(found, _poses(kin, other, other_status, tool_length))
+    # Angles in space mean the same direction in both poses; with RTCP they are axis angles.
+    same = None if kin.rtcp else rows
+    return _together(found, _poses(kin, other, other_status, tool_length, same))
 
 
 def poses_of_tool(
@@ -108,14 +114,15 @@ def poses_of_step(
     """The poses of any kinematics for axis values or programmed values (m, n_channel).
 
     Condition numbers are NaN, the direction too where the kinematics has no tool.
-    Raises KinematicsError for rows without a solution.
+    Raises KinematicsError for a faulty kinematics; a row without a solution has a status.
     """
     if axes is None:
         programmed = np.atleast_2d(np.asarray(program, np.float64))
-        values = step.inverse(programmed, tool_length, near)
+        values, status = _of_rows(lambda r: step.inverse(r, tool_length, near), programmed)
     else:
         values = np.atleast_2d(np.asarray(axes, np.float64))
-        programmed = step.program(values, tool_length)
+        programmed, status = _of_rows(lambda r: step.program(r, tool_length), values)
+    values = np.where(status[:, None] != 0, np.nan, values)
     tip, direction = step.forward(values, tool_length)
     count = len(values)
     nothing = np.full(count, np.nan)
@@ -129,8 +136,22 @@ def poses_of_step(
         np.ones(count, np.int8),
         nothing,
         nothing,
-        np.zeros(count, np.int8),
+        status,
     )
+
+
+def _of_rows(solve: Callable[[Array], Array], rows: Array) -> tuple[Array, NDArray[np.int8]]:
+    """What a kinematics answers for rows (m, n), NaN where it has no solution, and a status."""
+    status = np.zeros(len(rows), np.int8)
+    try:
+        return solve(rows), status
+    except KinematicsError as error:
+        if not error.rows or error.id != NO_SOLUTION:
+            raise
+        status[list(error.rows)] = kernels.UNREACHABLE
+    answer = np.full(rows.shape, np.nan)
+    answer[status == 0] = solve(rows[status == 0])
+    return answer, status
 
 
 def _solver(kin: UniversalKinematics) -> OrientationSolver:
@@ -200,11 +221,13 @@ def _poses(
 
 
 def _together(first: Poses, second: Poses) -> Poses:
-    """Both poses of a row one behind the other."""
+    """Both poses of a row one behind the other; a row once where the two are one."""
+    apart = np.abs(first.axes - second.axes).max(axis=1, initial=0.0) > SAME_AXES
+    kept = np.column_stack([np.ones(len(first), bool), apart]).reshape(-1)
 
     def merge(name: str) -> Any:
         a, b = getattr(first, name), getattr(second, name)
-        return np.stack([a, b], axis=1).reshape(2 * len(a), *a.shape[1:])
+        return np.stack([a, b], axis=1).reshape(2 * len(a), *a.shape[1:])[kept]
 
     names = (field.name for field in fields(Poses) if field.name != "axis_names")
     return Poses(first.axis_names, *(merge(name) for name in names))

@@ -2,7 +2,8 @@
 
 Two pairs of spellings: `kinematik[91].x` (up to V2.11) and `trafo[j].x` with `trafo[j].id 91`
 (from V3.00); named fields and `param[i]`. Converting there and back gives the bytes of before:
-lines that V2.11 has no form for stay as comments that begin with `MARK`.
+lines that V2.11 has no form for stay as comments that begin with `MARK`. Only `Kinematik` comes
+back as `kinematik`: the control would not know a `Trafo`.
 Source: FCT-C27 3.2 and 3.5, P-CHAN-00262, -00263, -00829.
 """
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from ncscope.diagnostics import Diagnostic, diagnostic
-from ncscope.kinematics.library import LIBRARY, complaints, to_universal, why_not
+from ncscope.kinematics.library import LIBRARY, complaints, instead, to_universal, why_not
 from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.lists.document import Entry, ListDocument
-from ncscope.lists.kinematic_sets import split_key
-from ncscope.lists.values import read_values
+from ncscope.lists.kinematic_sets import Slot, split_key
+from ncscope.lists.values import Value, read_values
 
 LINEAR = 1
 
@@ -26,7 +26,7 @@ def from_library(
     parameters cannot be taken over.
     """
     if id not in LIBRARY:
-        return None, (diagnostic("N3502", None, why_not(id)),)
+        return None, (diagnostic("N3502", None, why_not(id), instead(id)),)
     entries, found = _parameters(document, id)
     if not entries:
         message = f"{document.name} has no parameters of kinematics {id}"
@@ -91,18 +91,23 @@ def _number(value: float) -> str:
 def _parameters(
     document: ListDocument, id: int
 ) -> tuple[dict[int, tuple[float, Entry]], tuple[Diagnostic, ...]]:
-    """param index -> value and entry of the kinematics with this id; the last entry counts."""
+    """param index -> value and entry of the kinematics of this type; the last entry counts.
+
+    A data set without a type has that of its id (P-CHAN-00829).
+    """
     readings, found = read_values(document, "channel")
-    places = {}
+    named: dict[str, dict[Slot, Value]] = {"id": {}, "type": {}}
     for reading in readings:
         split = split_key(reading.entry.key)
-        if split is not None and split[1] == "id" and reading.value == id:
-            places[split[0]] = id
+        if split is not None and split[1] in named and reading.value:
+            named[split[1]][split[0]] = reading.value
+    places = {slot for slot, number in {**named["id"], **named["type"]}.items() if number == id}
     values: dict[int, tuple[float, Entry]] = {}
     for reading in readings:
         split = split_key(reading.entry.key)
         if split is None or reading.value is None or not split[1].startswith("param["):
             continue
-        if split[0].fixed_id == id or split[0] in places:
+        untyped = split[0] not in named["type"]
+        if split[0] in places or (split[0].fixed_id == id and untyped):
             values[reading.indices[-1]] = (float(reading.value), reading.entry)
     return values, found

@@ -50,7 +50,9 @@ def open_pose_table(path: str | Path) -> tuple[PoseTable | None, tuple[Diagnosti
     source = _source(path)
     for _, line in _lines(source):
         separator = next((s for s in ";\t" if s in line), ",")
-        names = tuple(name.strip() for name in next(csv.reader([line], delimiter=separator)))
+        names = tuple(name.strip() for name in _cells(line, separator))
+        if not all(name.isprintable() for name in names):
+            return None, (_unreadable(path, "it holds no text"),)
         return _checked(PoseTable(path, names, separator))
     return None, (_unreadable(path, "it is empty", "the first line names the columns"),)
 
@@ -68,10 +70,14 @@ def _checked(table: PoseTable) -> tuple[PoseTable | None, tuple[Diagnostic, ...]
 
 def _csv_numbers(table: PoseTable, names: Sequence[str]) -> tuple[Array, tuple[Diagnostic, ...]]:
     columns = [table.names.index(name) for name in names]
+    lines = _data_lines(table.path)
+    if not lines:
+        reason = _unreadable(table.path, "it has no rows below the names of its columns")
+        return np.zeros((0, len(columns))), (reason,)
     try:
         # The compiled reader knows neither empty cells nor decimal commas: those take longer.
         values = np.loadtxt(
-            _data_lines(table.path), delimiter=table.separator, usecols=columns, ndmin=2,
+            lines, delimiter=table.separator, usecols=columns, ndmin=2,
             comments=None, quotechar='"',
         )  # fmt: skip
     except ValueError:
@@ -91,7 +97,7 @@ def _careful_numbers(
     lines = _lines(source)
     next(lines)
     for offset, line in lines:
-        cells = next(csv.reader([line], delimiter=table.separator))
+        cells = _cells(line, table.separator)
         row = []
         for column in columns:
             value = _number(cells[column], table.separator) if column < len(cells) else None
@@ -105,6 +111,14 @@ def _careful_numbers(
             row.append(value)
         rows.append(row)
     return np.array(rows, np.float64).reshape(-1, len(columns)), ()
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    """The cells of a line; what the reader of CSV takes for binary data is cut at separators."""
+    try:
+        return next(csv.reader([line], delimiter=separator))
+    except csv.Error:
+        return line.split(separator)
 
 
 def _number(text: str, separator: str) -> float | None:

@@ -17,6 +17,8 @@ from ncscope.trajectory import NO_BLOCK, Stretch, Trajectory
 
 FIRST, LAST = 40, 10
 """A long run is shortened to its first and last moves."""
+HUGE = 1e9
+"""mm and degrees; numbers from here on are no positions and would only widen the column."""
 BETWEEN = "-"
 """In the column of the block number: a point on the way to the end of the block."""
 
@@ -88,7 +90,9 @@ def _numbers(axes: tuple[str, ...], present: tuple[str, ...], values: Array) -> 
 
 def number(value: float) -> str:
     """Four decimals: the resolution of the control; never a negative zero."""
-    return f"{value + 0.0:.4f}" if abs(value) >= 5e-5 else "0.0000"
+    if abs(value) < 5e-5:
+        return "0.0000"
+    return f"{value:.6g}" if abs(value) >= HUGE else f"{value:.4f}"
 
 
 def explain_table(item: Explanation) -> Table:
