@@ -27,7 +27,7 @@ from ncscope.language.detection import needs_layout
 from ncscope.language.structure import Layout, layout
 from ncscope.machine import Machine
 from ncscope.program import Options, Program, Progress, Sink
-from ncscope.recording import Recorder
+from ncscope.recording import Recorder, with_bulges
 from ncscope.trajectory import Stretch, Trajectory
 from ncscope.transitions import Transitions
 
@@ -299,6 +299,7 @@ class _Loop:
     def _take(self, stretch: Stretch) -> None:
         """Moves that are recorded for good."""
         axes = [axes for moves, axes in self.channels if moves <= self.taken]
+        stretch = with_bulges(stretch, axes[-1])
         ends = stretch.at_ends()
         self.inspector.see(ends, axes[-1])
         self.taken += len(ends)

@@ -15,11 +15,13 @@ from ncscope.coordinates import Coordinates
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.explanation import Visit
 from ncscope.frames import Array
+from ncscope.machine import Axis
 from ncscope.motion import MOTIONS, Move
 from ncscope.motion.arc import Arc
+from ncscope.motion.bulges import bulges
 from ncscope.motion.paths import Paths
 from ncscope.motion.sampling import needs_points, sample
-from ncscope.motion.turning import turning_points
+from ncscope.motion.turning import TurningPoints, turning_points
 from ncscope.trajectory import NO_BLOCK, Stretch
 
 
@@ -211,7 +213,7 @@ class Recorder:
 
     def _sampled(self, part: _Part) -> Stretch:
         """The stretch of a part with points along its moves."""
-        s, spans = part.stretch, part.spans
+        s, spans = replace(part.stretch, between=part.paths), part.spans
         if self._tolerance is None and not part.arcs:
             return s
         paths = part.paths()
@@ -236,6 +238,19 @@ class Recorder:
             acs=points.acs,
             ends=points.share == 1.0,
         )
+
+
+def with_bulges(stretch: Stretch, axes: tuple[Axis, ...]) -> Stretch:
+    """The stretch without its paths, and with the points where straight moves leave the limits."""
+    between, s = stretch.between, replace(stretch, between=None)
+    if between is None or s.coordinates.kinematics is None or not any(a.limits for a in axes):
+        return s
+    limits = np.array([a.limits or (-np.inf, np.inf) for a in axes], dtype=float)
+    found = bulges(s.coordinates, between(), s.start, s.at_ends().acs, limits)
+    if found is None or s.turning is None:
+        return s if found is None else replace(s, turning=found)
+    row = np.concatenate([s.turning.row, found.row])
+    return replace(s, turning=TurningPoints(row, np.concatenate([s.turning.acs, found.acs])))
 
 
 def _line_span(source: Source, file: str, line: int) -> Span | None:

@@ -23,6 +23,7 @@ from ncscope.explanation import Explanation, Visit, Whereabouts, whereabouts
 from ncscope.frames import Array
 from ncscope.machine import Axis
 from ncscope.motion import MOTIONS
+from ncscope.motion.paths import Paths
 from ncscope.motion.turning import TurningPoints
 
 PARQUET: Mapping[str, Any] = {"compression": "snappy", "use_dictionary": ["motion"]}
@@ -38,7 +39,8 @@ class Stretch:
     line, block: int64 (m,). motion: index into MOTIONS, int8 (m,). feed: NaN where none.
     pcs, acs: (m, n). start: (n,) axis positions before the first move. ends: (m,) whether the row
     is the end of its move and not a point on the way there, None where all are ends.
-    turning: where axes turn back on the arcs of the stretch; its rows count the moves.
+    turning: where axes turn back on the arcs of the stretch, and where a straight move takes one
+    beyond its limit; its rows count the moves. between: the paths of the moves, while they run.
     """
 
     coordinates: Coordinates
@@ -53,6 +55,7 @@ class Stretch:
     start: Array
     ends: NDArray[np.bool_] | None = None
     turning: TurningPoints | None = None
+    between: Callable[[], Paths] | None = field(default=None, repr=False, compare=False)
 
     def __len__(self) -> int:
         return len(self.line)

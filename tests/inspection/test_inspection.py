@@ -273,3 +273,44 @@ def test_a_quarter_that_does_not_reach_the_limit():
     text = "G00 X0 Y-10\nG03 X10 Y0 I0 J10 F100\nM30\n"
     result = ncscope.run(limited(Y=(-10.0, 0.0), X=(0.0, 10.0)), text)
     assert warnings(result) == []
+
+
+def bulge(share, way, turn):
+    """X of the head with a tool 100 long that lies flat: tip X plus 100 sin(C)."""
+    return way * share + 100.0 * np.sin(np.radians(turn) * share)
+
+
+@pytest.mark.parametrize(("way", "turn"), [(-30.0, 100.0), (-90.0, 60.0), (0.0, 720.0)])
+@pytest.mark.parametrize("bulk", [True, False])
+def test_limits_between_the_ends_of_a_block(way: float, turn: float, bulk: bool):
+    highest = bulge(np.linspace(0.0, 1.0, 100_001), way, turn).max()
+    text = (
+        f"V.G.WZ_AKT.L = 100\n#TRAFO [91]\nG00 X0 C0 A90\nG01 F1 X{way} C{turn}\n#TRAFO OFF\nM30\n"
+    )
+    below, above = limited(X=(-1e4, highest - 0.01)), limited(X=(-1e4, highest + 0.01))
+    found = ncscope.run(below, text, options=Options(bulk=bulk))
+    assert warnings(found) == [("N4101", 4)]
+    x = next(t for t in ncscope.inspect(found).travel if t.axis.name == "X")
+    assert x.high == pytest.approx(highest, abs=1e-3) and set(x.above) == {1}
+    assert warnings(ncscope.run(above, text, options=Options(bulk=bulk))) == []
+    sampled = ncscope.run(below, text, options=Options(sample=1.0))
+    assert warnings(sampled) == [("N4101", 4)]
+
+
+def test_bulges_are_not_looked_for_where_axes_go_straight():
+    text = "V.G.WZ_AKT.L = 100\n#TRAFO [91]\nG00 X0 C0 A90\n#PTP ON\nG01 F1 C180\n#PTP OFF\nM30\n"
+    assert warnings(ncscope.run(limited(X=(-50.0, 50.0)), text))[:1] != [("N4101", 5)]
+    text = "G00 X0 C0 A90\nG01 F1 X40 C180\nX-40 C0\nM30\n"
+    assert warnings(ncscope.run(limited(X=(-41.0, 41.0)), text)) == []
+
+
+def test_a_complete_transformation_turns_in_a_plane_between_the_ends():
+    # The tool goes from direction +X to -X over +Z: the tip stays at 0 and axis Z goes from 0 to
+    # 100 and back (L = 100). Turning C by 180 degrees instead would leave Z at 0.
+    whole = replace(MACHINE, kinematic_parameters={91: HEAD.with_value(56, 0)})
+    text = "V.G.WZ_AKT.L = 100\n#TRAFO [91]\nG00 X0 Y0 Z0 C90 A89\nG01 F1 A-89\n#TRAFO OFF\nM30\n"
+    axes = tuple(replace(a, limits=(-150.0, 99.0) if a.name == "Z" else None) for a in AXES)
+    result = ncscope.run(replace(whole, axes=axes), text)
+    assert [w for w in warnings(result) if w[0] == "N4101"] == [("N4101", 4)]
+    z = next(t for t in ncscope.inspect(result).travel if t.axis.name == "Z")
+    assert z.high == pytest.approx(100.0, abs=1e-3)
