@@ -97,6 +97,19 @@ def test_global_call(folder, name):
     assert result.line.tolist() == [1, 3, 7, 3]
 
 
+def test_name_of_a_file_in_other_capitals(folder):
+    """As on Windows, where the control runs; two files that differ in capitals only are none."""
+    (folder / "Cycles").mkdir()
+    (folder / "Cycles" / "Drill.NC").write_text("X7\nM17\n")
+    for name in ("SUB.NC", "cycles/drill.nc", "CYCLES\\DRILL.nc"):
+        result = run_in(folder, f"X1\nL {name}\nM30\n")
+        assert result.ok and len(result) > 1, result.diagnostics
+    (folder / "Sub.NC").write_text("X9\nM17\n")
+    assert run_in(folder, "L Sub.NC\nM30\n").acs[0, 0] == 9
+    assert ids(run_in(folder, "L SUB.nc\nM30\n")) == [("20369", 1)]
+    assert ids(run_in(folder, "L ../OUTSIDE.nc\nM30\n")) == [("20369", 1)]
+
+
 def test_explain_means_the_main_program(folder):
     result = run_in(folder, "X1\nL sub.nc\nX2\nM30\n")
     assert result.explain(line=3).layers[0].values[0] == 2

@@ -176,6 +176,51 @@ def test_cycle_written_wrongly(arguments, id):
     assert [i for i, _ in failing(f"LL CYCLE [{arguments}]\nM30\n" + DRILL)] == [id]
 
 
+def nested_macros(inner: str, between: str) -> str:
+    """Macros A0 to A8; each text uses the macro before it eight times."""
+    lines = [f'"A0" = "{inner}"']
+    for i in range(1, 9):
+        text = between.join([f'\\"A{i - 1}\\"'] * 8)
+        lines.append(f'"A{i}" = "{text}"')
+    return "\n".join(lines) + "\n"
+
+
+def test_macros_of_macros_have_a_limit():
+    """A4 is 8 ** 4 words; A8 would be 16 million."""
+    result = go(nested_macros("P1=P1+1", " ") + 'P1=0\n"A4"\nXP1\n"A8"\nM30\n')
+    assert result.acs[:, 0].tolist() == [4096] and ids(result) == [("20734", 13)]
+    result = go(nested_macros("1", "+") + 'X"A4"\nX["A8"]\nM30\n')
+    assert result.acs[:, 0].tolist() == [4096] and ids(result) == [("20734", 11)]
+    result = go(nested_macros("1", "+") + 'V.P.T=MACRO_CONTENT["A8"]\nM30\n')
+    assert ids(result) == [("22276", 10)]
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        '$IF "C"\nX1\n$ENDIF',
+        '$FOR P1="N","N",1\nX1\n$ENDFOR',
+        '$GOTO N"N"\nX9\nN2: X1',
+        '$SWITCH "N"\n$CASE "N"\nX1\n$ENDSWITCH',
+        '#IF "C"\nX1\n#ENDIF',
+        'P2="N" X[P2-1]',
+        '$WHILE "C"\nX1\nP1=3\n$ENDWHILE',
+        '$REPEAT\nX1\n$UNTIL "C"',
+        'N"N" X["N"-1]',
+    ],
+)
+def test_macro_that_stands_alone_for_a_number(block):
+    text = f'"C" = "P1 < 3"\n"N" = "1+1"\nP1=0\n{block}\nX1\nM30\n'
+    result = go(text)
+    assert ids(result) == [] and set(result.acs[:, 0].tolist()) == {1}
+
+
+def test_text_for_a_variable_of_texts_is_no_macro():
+    text = '"N" = "1+1"\n#VAR\nV.P.T : STRING[9]\nV.P.R\n#ENDVAR\nV.P.T="N" V.P.R="N" V.P.NEW="N"\n'
+    result = go(text + "XLEN[V.P.T] YV.P.R ZLEN[V.P.NEW]\nM30\n")
+    assert result.acs.tolist() == [[1, 2, 1]]
+
+
 def test_cycle_parameter_number():
     assert failing("LL CYCLE [NAME=DRILL @P201=1]\nM30\n" + DRILL) == [("20400", 1)]
 

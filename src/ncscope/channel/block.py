@@ -156,8 +156,10 @@ def _collect(draft: Draft, collected: Words, words: tuple[tree.Word, ...], depth
             case tree.MacroDefinition():
                 macros.define(draft, word)
             case tree.Macro():
+                collected.macro_uses += 1
                 with macros.used(word):
-                    _collect(draft, collected, macros.words(draft, word, depth), depth + 1)
+                    found = macros.words(draft, word, depth, collected.macro_uses)
+                    _collect(draft, collected, found, depth + 1)
 
 
 RETURNS = (17, 29)

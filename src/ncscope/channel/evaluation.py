@@ -108,7 +108,7 @@ def write_variable(draft: Draft, word: tree.Assignment) -> None:
     if isinstance(node, tree.Variable) and _is_record(node):
         return _write_record(draft, node, word)
     numbers = indices(draft, node)
-    value = evaluate_value(draft, word.value)
+    value = evaluate_value(draft, _source(draft, node, numbers, word.value))
     if word.operator != "=":
         value = _combined(draft, word, _read(draft, node, numbers), value)
     if isinstance(node, tree.CycleParameter):
@@ -126,6 +126,19 @@ def write_variable(draft: Draft, word: tree.Assignment) -> None:
         draft.fail("20392", word.value.span, "a number is needed here, not a text")
     row.write(draft, reference, value)
     return None
+
+
+def _source(
+    draft: Draft, node: Node, numbers: tuple[int, ...], value: tree.Expression
+) -> tree.Expression:
+    """What is assigned: a string alone is a text, or the macro of this name for a number."""
+    if not isinstance(value, tree.Text) or value.value not in draft.state.macros:
+        return value
+    if isinstance(node, tree.CycleParameter):
+        return value
+    if user_variables.is_user(node) and not user_variables.holds_number(draft, node, numbers):
+        return value
+    return tree.Macro(value.value, value.span)
 
 
 def _combined(draft: Draft, word: tree.Assignment, old: Value, value: Value) -> Value:

@@ -14,7 +14,7 @@ from functools import lru_cache
 from ncscope.channel.draft import BlockError, Draft
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language import tree
-from ncscope.language.expressions import DEEPEST_MACRO, used_at
+from ncscope.language.expressions import DEEPEST_MACRO, MOST_USES, used_at
 from ncscope.language.parser import parse_block
 
 
@@ -34,8 +34,11 @@ def _check_length(draft: Draft, name: str, span: Span) -> None:
         draft.fail("20614", span, what)
 
 
-def words(draft: Draft, word: tree.Macro, depth: int) -> tuple[tree.Word, ...]:
-    """The words that a macro stands for; they stand where the macro is used."""
+def words(draft: Draft, word: tree.Macro, depth: int, uses: int) -> tuple[tree.Word, ...]:
+    """The words that a macro stands for; they stand where the macro is used.
+
+    depth: macros around this one. uses: macros of the block up to here.
+    """
     text = draft.state.macros.get(word.name)
     if text is None:
         _check_length(draft, word.name, word.span)
@@ -44,6 +47,9 @@ def words(draft: Draft, word: tree.Macro, depth: int) -> tuple[tree.Word, ...]:
     if depth >= DEEPEST_MACRO:
         hint = "a macro cannot stand in its own text, nor in the text of a macro that it uses"
         draft.fail("20734", word.span, f"the macro {word.name!r} contains itself", hint)
+    if uses > MOST_USES:
+        what = f"the block uses more than {MOST_USES} macros, those inside of macros included"
+        draft.fail("20734", word.span, what)
     found, error = _parsed(text, f"text of the macro {word.name}")
     if error is not None:
         raise BlockError(error)

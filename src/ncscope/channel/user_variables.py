@@ -204,7 +204,7 @@ def size(
     key, _ = _resolve(draft, node, numbers)
     stored = draft.state.variables.get(key)
     if stored is None:
-        draft.fail("20932", node.span, f"the variable {key} does not exist")
+        draft.fail("20932", node.span, f"the variable {key} does not exist", _missing(key))
     sizes = stored.dimensions or (1,)
     if not 1 <= dimension <= len(sizes):
         hint = "dimensions count from 1"
@@ -267,6 +267,12 @@ def _refuse_indices(
     if indices:
         id = "20925" if key.startswith("P") and reading else "20924"
         draft.fail(id, span, f"{key} is not an array")
+
+
+def holds_number(draft: Draft, node: Node, numbers: tuple[int, ...]) -> bool:
+    """Whether the variable is of a type for numbers; P is, where it has not been declared."""
+    stored = draft.state.variables.get(_resolve(draft, node, numbers)[0])
+    return isinstance(node, tree.Parameter) if stored is None else stored.type != "STRING"
 
 
 def exists(draft: Draft, node: Node, numbers: tuple[int, ...]) -> bool:

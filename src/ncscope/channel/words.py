@@ -17,6 +17,7 @@ PRESET_NAMES = ("PSET", "PRESET")
 class Words:
     """The words of one block, each evaluated, waiting for the rule that takes it.
 
+    macro_uses: macros that were replaced by their text.
     signed: of a modulo axis, the sign behind its letter and the value without it.
     """
 
@@ -27,6 +28,7 @@ class Words:
     addresses: dict[str, tuple[float, Span]] = field(default_factory=dict)
     mfunctions: dict[int, Span] = field(default_factory=dict)
     tool_writes: dict[str, Span] = field(default_factory=dict)
+    macro_uses: int = 0
 
 
 def cycle_letter(draft: Draft, word: tree.AddressWord) -> str:

@@ -15,6 +15,7 @@ from ncscope.language.tree import Call, Expression, Group, Item, Macro, Name
 
 _CALL = re.compile(r"(LL|L)(?=[ \t\0\r\"]|\Z)", re.IGNORECASE)
 _SPECIAL_CALL = re.compile(r"(CYCLE|SEQUENCE)(?=[ \t\0\r]*\[)", re.IGNORECASE)
+_WITHOUT_BRACKETS = re.compile(r"(CYCLE|SEQUENCE)[ \t\0\r]+(?=NAME\b|N[0-9]|@P)", re.IGNORECASE)
 _FILE_NAME = re.compile(r'[^\s\0\[\]"#;,()]+')
 _LABEL = re.compile(r"\[[ \t\0\r]*([^\s\0\[\]]+)[ \t\0\r]*\]")
 _BLOCK = re.compile(r"[Nn](?=[0-9\[])")
@@ -33,6 +34,10 @@ def call(cursor: Cursor) -> Call | None:
     kind = found.group().upper()
     cursor.skip()
     special = cursor.match(_SPECIAL_CALL)
+    if special is None and (bare := cursor.looks_at(_WITHOUT_BRACKETS)) is not None:
+        name = bare.group(1).upper()
+        hint = f"write {kind} {name} [NAME=..]"
+        raise cursor.mistake("N1005", f"{kind} {name} needs square brackets.", hint)
     if special is None:
         return Call(kind, _target(cursor, start), (), cursor.span(start))
     cursor.skip()

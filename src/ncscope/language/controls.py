@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from ncscope.language.cursor import Cursor, Mistake
-from ncscope.language.terms import expression, starts_target, target
+from ncscope.language.terms import expression, starts_target, target, value
 from ncscope.language.tree import (
     Assignment,
     Control,
@@ -112,7 +112,7 @@ def behind(cursor: Cursor, statement: Control) -> Mistake:
 
 def _condition(cursor: Cursor, keyword: str, start: int) -> Control:
     """condition = keyword , expr , [ "$GOTO" , aim ] ;"""
-    condition = expression(cursor)
+    condition = value(cursor)
     end = cursor.at
     cursor.skip()
     if keyword == "IF" and cursor.match(_GOTO):
@@ -138,7 +138,7 @@ def _jump(cursor: Cursor) -> Jump:
         hint = "write $GOTO N20 or $GOTO [NAME]"
         raise cursor.mistake("20839", "$GOTO needs a label.", hint)
     cursor.at += 1
-    number = expression(cursor)
+    number = value(cursor)
     return ((), number) if isinstance(number, Number) else ((number,), None)
 
 
@@ -150,12 +150,12 @@ def _for(cursor: Cursor, start: int) -> Control:
         raise cursor.mistake(
             "20228", "$FOR needs '=' behind its variable.", "write $FOR P1 = 1,5,1"
         )
-    values = [expression(cursor)]
+    values = [value(cursor)]
     for _ in range(2):
         if not cursor.take(","):
             message = "$FOR needs a first value, a last value and a step, with commas between."
             raise cursor.mistake("20229", message, "write $FOR P1 = 1,5,1")
-        values.append(expression(cursor))
+        values.append(value(cursor))
     return Control("FOR", tuple(values), counter, cursor.span(start))
 
 
@@ -176,4 +176,4 @@ def _switch(cursor: Cursor, start: int) -> tuple[Control, Assignment | None]:
             assigned = Assignment(left, "=", expression(cursor), cursor.span(begin))
             return Control("SWITCH", (left,), None, cursor.span(start)), assigned
         cursor.at = begin
-    return Control("SWITCH", (expression(cursor),), None, cursor.span(start)), None
+    return Control("SWITCH", (value(cursor),), None, cursor.span(start)), None

@@ -34,6 +34,8 @@ from ncscope.language.tree import (
 Value = float | str
 Readable = Variable | Parameter | CycleParameter
 DEEPEST_MACRO = 20
+MOST_USES = 10_000
+"""Macros of one block, those inside of macros included: short texts can call for millions."""
 
 
 class Environment(Protocol):
@@ -170,13 +172,20 @@ def _has_number_literal(node: Binary) -> bool:
 
 
 def _binary_on_values(node: Binary) -> Compiled:
-    """`+` and the comparisons take two strings too; a string beside a number names a macro."""
+    """`+` and the comparisons take two strings too.
+
+    A string beside a number names a macro, and so do two strings that both are names of macros.
+    """
     left, right, span = _compile(node.left), _compile(node.right), node.span
     on_numbers, on_strings = ARITHMETIC[node.operator], _ON_STRINGS[node.operator]
+    literals = [n.value for n in (node.left, node.right) if isinstance(n, Text)]
+
+    def macros(environment: Environment) -> bool:
+        return len(literals) == 2 and all(environment.macro(n) is not None for n in literals)
 
     def run(environment: Environment) -> Value:
         a, b = left(environment), right(environment)
-        if isinstance(a, str) and isinstance(b, str):
+        if isinstance(a, str) and isinstance(b, str) and not macros(environment):
             try:
                 return on_strings(a, b)
             except NoValue as error:
@@ -278,6 +287,10 @@ def _macro(node: Macro) -> Compiled:
         if depth > DEEPEST_MACRO:
             hint = "a macro cannot stand in its own text, nor in the text of a macro that it uses"
             raise failure("20734", node.span, f"The macro {node.name!r} contains itself.", hint)
+        uses = environment.uses if isinstance(environment, _InMacro) else [0]
+        uses[0] += 1
+        if uses[0] > MOST_USES:
+            raise failure("20734", node.span, f"More than {MOST_USES} macros are used.")
         text = _macro_text(environment, node.name, node.span)
         inside = environment.outer if isinstance(environment, _InMacro) else environment
         try:
@@ -286,7 +299,7 @@ def _macro(node: Macro) -> Compiled:
             message = f"The macro {node.name!r} is no expression: {mistake.item.message}"
             raise failure(mistake.item.id, node.span, message) from None
         try:
-            return _compile(tree)(_InMacro(inside, depth))
+            return _compile(tree)(_InMacro(inside, depth, uses))
         except EvaluationError as error:
             raise EvaluationError(used_at(error.diagnostic, node.span)) from None
 
@@ -301,13 +314,25 @@ def used_at(item: Diagnostic, span: Span) -> Diagnostic:
     return replace(item, span=span, notes=notes)
 
 
-def content(name: str, environment: Environment, span: Span, depth: int = 0) -> str:
+def content(name: str, environment: Environment, span: Span) -> str:
     """The text of a macro with the texts of the macros that it uses."""
-    text = environment.macro(name)
-    if text is None or depth > DEEPEST_MACRO or len(text) > LONGEST_TEXT:
-        why = "is not defined" if text is None else "contains itself or is too long"
-        raise failure("22276", span, f"The macro {name!r} {why}.")
-    return _NESTED.sub(lambda use: content(use.group(1), environment, span, depth + 1), text)
+    uses = 0
+
+    def resolved(name: str, depth: int) -> str:
+        nonlocal uses
+        uses += 1
+        text = environment.macro(name)
+        if text is None:
+            raise failure("22276", span, f"The macro {name!r} is not defined.")
+        if depth > DEEPEST_MACRO or uses > MOST_USES:
+            raise failure("22276", span, f"The macro {name!r} contains itself, or too many others.")
+        text = _NESTED.sub(lambda use: resolved(use.group(1), depth + 1), text)
+        if len(text) > LONGEST_TEXT:
+            message = f"The text of the macro is longer than {LONGEST_TEXT} characters."
+            raise failure("22276", span, message)
+        return text
+
+    return resolved(name, 1)
 
 
 def _macro_text(environment: Environment, name: str, span: Span) -> str:
@@ -318,11 +343,12 @@ def _macro_text(environment: Environment, name: str, span: Span) -> str:
 
 
 class _InMacro:
-    """The environment of a macro's text; counts how deep macros stand in macros."""
+    """The environment of a macro's text; counts macros, and how deep they stand in macros."""
 
-    def __init__(self, outer: Environment, depth: int) -> None:
+    def __init__(self, outer: Environment, depth: int, uses: list[int]) -> None:
         self.outer = outer
         self.depth = depth
+        self.uses = uses
         self.read = outer.read
         self.exists = outer.exists
         self.size = outer.size

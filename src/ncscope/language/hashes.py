@@ -12,6 +12,7 @@ from ncscope.language.commands import Command, lookup, similar
 from ncscope.language.cursor import Cursor
 from ncscope.language.groups import comma_list, groups
 from ncscope.language.terms import arguments_in_brackets, close, expression, starts_target, target
+from ncscope.language.terms import value as value_of
 from ncscope.language.tree import (
     CycleParameter,
     Declaration,
@@ -100,7 +101,7 @@ def _content(cursor: Cursor, command: Command, start: int) -> HashCommand:
     if command.name == "DELETE":
         return _made(cursor, command, start, arguments=(comma_list(cursor),))
     if command.name == "IF":
-        return _made(cursor, command, start, value=expression(cursor))
+        return _made(cursor, command, start, value=value_of(cursor))
     modifiers = () if command.words else _modifiers(cursor)
     arguments = groups(cursor, raw=command.name in _FILE_NAMES)
     modifiers += () if command.words else _modifiers(cursor)

@@ -16,7 +16,7 @@ from ncscope.language.controls import behind, broken, control
 from ncscope.language.cursor import Cursor, Mistake
 from ncscope.language.hashes import declaration, hash_command, unknown_command
 from ncscope.language.lexer import BLANKS, LONGEST_LINE, Line, read_line
-from ncscope.language.terms import expression
+from ncscope.language.terms import value
 from ncscope.language.tree import (
     Block,
     Control,
@@ -208,7 +208,7 @@ def _block_number(cursor: Cursor, draft: _Draft) -> None:
     if draft.number is not None:
         raise cursor.mistake("20105", "The block has two block numbers.")
     cursor.at += 1
-    draft.number = expression(cursor)
+    draft.number = value(cursor)
     if not cursor.take(":"):
         return
     number = draft.number

@@ -56,6 +56,7 @@ _OPERATOR = re.compile(
     r"[ \t\0\r]*(\*\*(?!=)|&&|\|\||[=!<>]=|[-+*/](?!=)|[&|^>]|<(?!>)|(?:MOD|XOR)(?!\w))",
     re.IGNORECASE,
 )
+CONTINUED = "a backslash at the end of a line joins the next line to it"
 WORD_OPERATORS = {"AND": "&& (or & for bits)", "OR": "|| (or | for bits)", "<>": "!="}
 _WORD_OPERATOR = re.compile(r"[ \t\0\r]+(AND|OR)(?![\w=])|[ \t\0\r]*(<>)", re.IGNORECASE)
 _NUMBER = re.compile(r"[0-9]+(?:\.[0-9]*)?|\.[0-9]+")
@@ -197,6 +198,8 @@ def _named(cursor: Cursor) -> Expression:
         shown = word or cursor.char
         message = f"{shown!r} is no term of an expression." if shown else "A term is missing here."
         hint = "write a number, a parameter P.., a variable V... or a function such as SIN[..]"
+        if not shown.strip():
+            hint = CONTINUED
         raise cursor.mistake("20392", message, hint)
     cursor.at += len(word)
     if cursor.skip() != "[":
@@ -247,7 +250,9 @@ def close(cursor: Cursor, opening: int, id: str) -> None:
     if not cursor.take("]"):
         line, column = cursor.source.position(cursor.base + opening)
         hint = f"the bracket was opened at line {line}, column {column}"
-        if cursor.char == "=":
+        if cursor.at_end:
+            hint += f"; {CONTINUED}"
+        elif cursor.char == "=":
             hint = "two equals signs compare: =="
         raise cursor.mistake(id, "A closing bracket ']' is missing here.", hint)
 

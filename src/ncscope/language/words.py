@@ -353,7 +353,9 @@ def _macro(cursor: Cursor) -> Macro | MacroDefinition:
     if cursor.match(_EQUALS) is None:
         return Macro(name, cursor.span(start))
     if cursor.skip() != '"':
-        raise _no_value(cursor, start)
+        message = f"The text of the macro {name!r} must stand in quotation marks."
+        hint = f'write "{name}" = "text"'
+        raise cursor.mistake("N1002", message, hint, cursor.span(start, cursor.written_end()))
     text = string(cursor).value
     return MacroDefinition(name, text, cursor.span(start))
 

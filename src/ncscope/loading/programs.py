@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,22 +31,42 @@ def subprogram_loader(
 
     search_paths: folders of the channel list, searched behind the folders themselves and relative
     to them (P-CHAN-00401). A name that leads out of the folders, also by a link, is not found.
+    Capitals do not count where only one file is meant: the control's own files lie on Windows.
     """
     roots = [Path(folder).resolve() for folder in folders]
     below = ["", *(path.replace("\\", "/") for path in search_paths)]
 
     def load(name: str) -> Source | None:
         relative = name.replace("\\", "/")
-        for root, folder in ((r, f) for f in below for r in roots):
-            try:
-                path = (root / folder / relative).resolve()
-                if path.is_relative_to(root) and path.is_file():
-                    return Source(path.relative_to(root).as_posix(), _content(path))
-            except (OSError, ValueError):
-                continue
+        places = [(root, PurePosixPath(folder, relative)) for folder in below for root in roots]
+        for spelled in (_as_written, _in_any_case):
+            for root, place in places:
+                try:
+                    path = spelled(root, place).resolve()
+                    if path.is_relative_to(root) and path.is_file():
+                        return Source(path.relative_to(root).as_posix(), _content(path))
+                except (OSError, ValueError):
+                    continue
         return None
 
     return load
+
+
+def _as_written(root: Path, place: PurePosixPath) -> Path:
+    return root / place
+
+
+def _in_any_case(root: Path, place: PurePosixPath) -> Path:
+    """The one path below the root that differs in capitals only; FileNotFoundError without."""
+    path = root
+    for part in place.parts:
+        if part in ("..", "/"):
+            raise FileNotFoundError(place)
+        same = [p for p in path.iterdir() if p.name.casefold() == part.casefold()]
+        if len(same) != 1:
+            raise FileNotFoundError(place)
+        path = same[0]
+    return path
 
 
 def _content(path: Path) -> NDArray[np.uint8]:

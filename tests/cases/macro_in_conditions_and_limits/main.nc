@@ -1,0 +1,13 @@
+"LAST" = "2*1.5"
+"MORE" = "P1 < \"LAST\""
+$FOR P1 = 1,"LAST",1
+N10 XP1
+$ENDFOR
+P1 = 1
+$WHILE "MORE"
+N20 YP1
+P1 = P1 + 1
+$ENDWHILE
+P2 = "LAST"
+N30 ZP2
+M30
