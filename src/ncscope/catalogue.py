@@ -223,6 +223,7 @@ CATALOGUE: dict[str, Entry] = {
     "21216": Entry("error", "An array index is missing."),
     "21217": Entry("error", "The closing bracket of an index is missing."),
     "21462": Entry("error", "A text is longer than its variable."),
+    "21920": Entry("error", "The initial values of an array do not begin with '['."),
     "22275": Entry("error", "MACRO_CONTENT needs the name of a macro in quotation marks."),
     "22276": Entry("error", "MACRO_CONTENT cannot give the text of the macro."),
     "22254": Entry("error", "MACRO_LENGTH needs the name of a macro in quotation marks."),

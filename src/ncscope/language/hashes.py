@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from ncscope.language.commands import Command, lookup, similar
-from ncscope.language.cursor import Cursor
+from ncscope.language.cursor import Cursor, Mistake
 from ncscope.language.groups import comma_list, groups
 from ncscope.language.terms import arguments_in_brackets, close, expression, starts_target, target
 from ncscope.language.terms import value as value_of
@@ -19,6 +19,8 @@ from ncscope.language.tree import (
     Expression,
     Group,
     HashCommand,
+    Parameter,
+    Variable,
     Word,
 )
 from ncscope.language.words import word
@@ -149,7 +151,7 @@ def declaration(cursor: Cursor) -> Declaration:
     if isinstance(left, CycleParameter):
         raise cursor.mistake("20908", "A cycle parameter may not be declared.")
     kind, length = _type(cursor) if cursor.take(":") else (None, None)
-    initial = _initial(cursor) if cursor.match(_EQUALS) else ()
+    initial = _values(cursor, left) if cursor.match(_EQUALS) else ()
     return Declaration(left, kind, length, initial, cursor.span(start, cursor.written_end()))
 
 
@@ -159,23 +161,55 @@ def _type(cursor: Cursor) -> tuple[str, Expression | None]:
     name = cursor.word()
     if name.upper() not in TYPES:
         hint = f"the types are {', '.join(TYPES)}"
-        raise cursor.mistake("N1005", f"{name or cursor.char!r} is no type.", hint)
+        what = repr(name or cursor.char) if cursor.char else "nothing"
+        raise cursor.mistake("N1005", f"A type must follow the colon, not {what}.", hint)
     cursor.at += len(name)
     if name.upper() != "STRING" or cursor.skip() != "[":
         return name.upper(), None
     return "STRING", arguments_in_brackets(cursor, "21217")[0]
 
 
-def _initial(cursor: Cursor) -> tuple[Expression, ...]:
-    """initial = expr | list ;  list = "[" , ( expr | list ) , { "," , .. } , "]" ;"""
-    if cursor.skip() != "[":
-        return (expression(cursor),)
+def _values(cursor: Cursor, left: Variable | Parameter) -> tuple[Expression, ...]:
+    """initial = expr | list ;  a list for arrays, an expression for others"""
+    parts = left.parts if isinstance(left, Variable) else (left,)
+    bracket = cursor.skip() == "["
+    if any(part.indices for part in parts):
+        if not bracket:
+            hint = "write the values in square brackets, for example [1, 2, 3]"
+            raise cursor.mistake("21920", "The values of an array begin with '['.", hint)
+        return _list(cursor)
+    return _item(cursor)
+
+
+def _list(cursor: Cursor) -> tuple[Expression, ...]:
+    """list = "[" , ( expr | list ) , { "," , .. } , "]" ;"""
     opening = cursor.at
     cursor.at += 1
+    if cursor.skip() == "]":
+        cursor.at += 1
+        raise cursor.mistake("20480", "The brackets are empty.", span=cursor.span(opening))
     cursor.deeper(1)
-    result = _initial(cursor)
+    result = _item(cursor)
     while cursor.take(","):
-        result += _initial(cursor)
+        if cursor.skip() == "]":
+            raise cursor.mistake("20483", "A comma stands before the closing bracket.")
+        result += _item(cursor)
     cursor.deeper(-1)
+    if cursor.skip() not in ("", "]"):
+        message = "A comma or the closing bracket ']' is missing here."
+        raise cursor.mistake("20198", message, "commas stand between values: [1, 2, 3]")
     close(cursor, opening, "20198")
     return result
+
+
+def _item(cursor: Cursor) -> tuple[Expression, ...]:
+    """item = expr | list ;  [P1 + 2] / 3 is an expression, [1, 2] is none"""
+    bracket = cursor.skip() == "["
+    start = cursor.at, cursor.depth, cursor.operators
+    try:
+        return (expression(cursor),)
+    except Mistake:
+        if not bracket:
+            raise
+    cursor.at, cursor.depth, cursor.operators = start
+    return _list(cursor)

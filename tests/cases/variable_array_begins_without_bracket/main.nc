@@ -1,0 +1,4 @@
+#VAR
+V.P.A[3] = 5
+#ENDVAR
+M30
