@@ -52,7 +52,9 @@ CONTROL = st.sampled_from(
      "$ENDWHILE", "$FOR P1 = 1,3,1", "$FOR P1 = 1,9,0", "$ENDFOR", "$DO", "$ENDDO P1", "$REPEAT",
      "$UNTIL 1", "$SWITCH P1", "$CASE 1", "$DEFAULT", "$ENDSWITCH", "$BREAK", "$CONTINUE",
      "$GOTO N10", "$GOTO [A]", "$IF 1 $GOTO N20", "N10:", "N20: X1", "[A]", "#IF 1", "#ELSE",
-     "#ENDIF", "#VAR", "V.L.B[3] : SGN08 = [1,2]", "#ENDVAR", "$IF", "$WHAT"]
+     "#ENDIF", "#VAR", "V.L.B[3] : SGN08 = [1,2]", "#ENDVAR", "$IF", "$WHAT",
+     '$IF "M"', '$FOR P1 = "M",3,1', "$GOTO V.E.A", "$GOTO V.P.A", "N10: [A] X1", "$IF P1 = 1",
+     "$WHILE 1 AND 1", "$ ENDIF", "$FOR P1 1,3", "$BREAK X1", "V.P.A = [P1 + 2] / 3"]
 )  # fmt: skip
 HASH = st.tuples(
     st.sampled_from([c.name for c in COMMANDS]),

@@ -51,6 +51,7 @@ WORD = st.one_of(
         EXPRESSION,
     ).map("".join),
     st.sampled_from(["G0", "G1", "G90", "G91", "F500", "F[P1]", "M8", "X1", "Y2.5", "G54", "S5"]),
+    st.sampled_from(['"W"', 'Z"V"', 'P4="V"']),
 )
 BLOCK = st.tuples(
     st.sampled_from(["", "N10 ", "N[P1] "]), st.lists(WORD, min_size=1, max_size=4)
@@ -66,6 +67,7 @@ def _nested(inner):
         body.map(lambda b: f"P5=0\n$WHILE P5 < 7\nP5=P5+1\n{b}\n$ENDWHILE"),
         body.map(lambda b: f"P6=9\n$DO\nP6-=2\n{b}\n$ENDDO P6 > 0"),
         body.map(lambda b: f"P7=0\n$REPEAT\nP7+=1\n{b}\n$UNTIL P7 >= 6"),
+        body.map(lambda b: f'$IF "C"\n{b}\n$ELSE\nP1 += 1\n$ENDIF'),
         st.tuples(EXPRESSION, body, body).map(
             lambda p: f"$IF {p[0]}\n{p[1]}\n$ELSE\n{p[2]}\n$ENDIF"
         ),
@@ -78,7 +80,10 @@ def _nested(inner):
 PROGRAM = st.lists(st.recursive(BLOCK, _nested, max_leaves=8), min_size=1, max_size=4).map(
     "\n".join
 )
-HEAD = "#VAR\nV.L.B = 2\n#ENDVAR\nP1=1 P2=2 P3=3 V.P.A=4 P5=3\nG1 F100 X0\n"
+HEAD = (
+    "#VAR\nV.L.B = 2\n#ENDVAR\nP1=1 P2=2 P3=3 V.P.A=4 P5=3\n"
+    '"V" = "P1 + 2" "W" = "Y[P2] P3=\\"V\\"" "C" = "P1 > 2"\nG1 F100 X0\n'
+)
 
 
 def same_places(machine, text, **options):
