@@ -20,7 +20,8 @@ from ncscope.channel.variables import (
     store_group,
 )
 from ncscope.language import tree
-from ncscope.language.expressions import EvaluationError, evaluate, indices_of
+from ncscope.language.expressions import evaluate, indices_of
+from ncscope.language.failures import EvaluationError
 from ncscope.language.vocabulary import word_entry
 from ncscope.machine import OffsetRecord
 

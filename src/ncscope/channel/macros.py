@@ -14,7 +14,8 @@ from functools import lru_cache
 from ncscope.channel.draft import BlockError, Draft
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language import tree
-from ncscope.language.expressions import DEEPEST_MACRO, MOST_USES, used_at
+from ncscope.language.failures import used_at
+from ncscope.language.macro_texts import DEEPEST_MACRO, MOST_USES
 from ncscope.language.parser import parse_block
 
 

@@ -8,14 +8,14 @@ Source: TF5200 programming manual; the conventions there are marked as ours.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Protocol
 
-from ncscope.diagnostics import Diagnostic, Span, diagnostic
+from ncscope.diagnostics import Span
 from ncscope.language.cursor import Mistake
+from ncscope.language.failures import EvaluationError, failure, used_at
 from ncscope.language.functions import FUNCTIONS, NoValue, quotient, rounded
+from ncscope.language.macro_texts import DEEPEST_MACRO, LONGEST_TEXT, MOST_USES, content
 from ncscope.language.terms import parse_expression
 from ncscope.language.tree import (
     Binary,
@@ -33,9 +33,6 @@ from ncscope.language.tree import (
 
 Value = float | str
 Readable = Variable | Parameter | CycleParameter
-DEEPEST_MACRO = 20
-MOST_USES = 10_000
-"""Macros of one block, those inside of macros included: short texts can call for millions."""
 
 
 class Environment(Protocol):
@@ -55,25 +52,7 @@ class Environment(Protocol):
     def macro(self, name: str) -> str | None: ...
 
 
-_NESTED = re.compile(r'"([^"]*)"')
 Compiled = Callable[[Environment], Value]
-
-
-LONGEST_TEXT = 4000
-"""Characters of a text, as many as a block has: a loop must not fill the memory."""
-
-
-class EvaluationError(Exception):
-    """An expression has no value here."""
-
-    def __init__(self, item: Diagnostic) -> None:
-        super().__init__(item.message)
-        self.diagnostic = item
-
-
-def failure(id: str, span: Span, message: str, hint: str = "") -> EvaluationError:
-    """The exception with its diagnostic."""
-    return EvaluationError(diagnostic(id, span, message, hint))
 
 
 def evaluate(expression: Expression, environment: Environment) -> Value:
@@ -231,7 +210,7 @@ def _function(node: Function) -> Compiled:
         values = tuple(argument(environment) for argument in compiled)
         _check_strings(node, values, entry.kinds)
         if apply is None and node.name == "MACRO_CONTENT":
-            return content(str(values[0]), environment, span)
+            return content(str(values[0]), environment.macro, span)
         if apply is None:
             return float(len(_macro_text(environment, str(values[0]), span)))
         result: Value = _checked(apply, values, span)
@@ -304,35 +283,6 @@ def _macro(node: Macro) -> Compiled:
             raise EvaluationError(used_at(error.diagnostic, node.span)) from None
 
     return run
-
-
-def used_at(item: Diagnostic, span: Span) -> Diagnostic:
-    """The diagnostic of a macro's text as one of the place that uses the macro, with one note."""
-    if item.span is None or item.span.source is span.source:
-        return item
-    notes = item.notes or (("in the text of the macro", item.span),)
-    return replace(item, span=span, notes=notes)
-
-
-def content(name: str, environment: Environment, span: Span) -> str:
-    """The text of a macro with the texts of the macros that it uses."""
-    uses = 0
-
-    def resolved(name: str, depth: int) -> str:
-        nonlocal uses
-        uses += 1
-        text = environment.macro(name)
-        if text is None:
-            raise failure("22276", span, f"The macro {name!r} is not defined.")
-        if depth > DEEPEST_MACRO or uses > MOST_USES:
-            raise failure("22276", span, f"The macro {name!r} contains itself, or too many others.")
-        text = _NESTED.sub(lambda use: resolved(use.group(1), depth + 1), text)
-        if len(text) > LONGEST_TEXT:
-            message = f"The text of the macro is longer than {LONGEST_TEXT} characters."
-            raise failure("22276", span, message)
-        return text
-
-    return resolved(name, 1)
 
 
 def _macro_text(environment: Environment, name: str, span: Span) -> str:

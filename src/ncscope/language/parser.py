@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
-from ncscope.language.commands import lookup
 from ncscope.language.controls import behind, broken, control
+from ncscope.language.crowding import crowded
 from ncscope.language.cursor import Cursor, Mistake
 from ncscope.language.hashes import declaration, hash_command, unknown_command
 from ncscope.language.lexer import BLANKS, LONGEST_LINE, Line, read_line
@@ -163,7 +163,7 @@ def parse_block(
     span = cursor.span(cursor.at, len(line.code.rstrip(BLANKS)))
     draft, found = _Draft(), _too_long(line, span)
     if not found:
-        found = _read(cursor, draft, declarations) + _exclusive(draft)
+        found = _read(cursor, draft, declarations) + _crowded(draft)
     return _block(draft, span, not any(d.is_error for d in found)), found, line.stop
 
 
@@ -269,28 +269,8 @@ def _control(cursor: Cursor, draft: _Draft) -> None:
         draft.words.append(assigned)
 
 
-def _exclusive(draft: _Draft) -> Diagnostics:
-    """Control statements, and most # commands, share their block with nothing else."""
-    crowd = len(draft.words) + len(draft.commands) + len(draft.declarations)
-    if draft.control is not None and draft.control.keyword != "GOTO":
-        return _alone(draft, draft.control)
-    for command in draft.commands:
-        row = lookup(command.name)
-        if crowd > 1 and command.known and row is not None and row.stands_alone:
-            id = "20566" if command.name.startswith("COMMENT") else "20207"
-            message = f"#{command.name} must stand alone in its block."
-            return (diagnostic(id, command.span, message, "put the other words on their own line"),)
-    return ()
-
-
-def _alone(draft: _Draft, statement: Control) -> Diagnostics:
-    """A control statement may have a block number or skip mark before it, and nothing else."""
-    others = [*draft.words, *draft.commands, *draft.declarations]
-    if not any(o.span.start < statement.span.start for o in others):
-        return ()
-    message = f"${statement.keyword} must stand alone in its block."
-    hint = "put what stands before it on a line of its own"
-    return (diagnostic("20206", statement.span, message, hint),)
+def _crowded(draft: _Draft) -> Diagnostics:
+    return crowded([*draft.words, *draft.declarations], draft.commands, draft.control)
 
 
 def _block(draft: _Draft, span: Span, ok: bool) -> Block:
