@@ -185,6 +185,15 @@ def nested_macros(inner: str, between: str) -> str:
     return "\n".join(lines) + "\n"
 
 
+def test_error_in_a_macro_shows_the_text_of_the_macro():
+    """The marker stands under the use; the note has the innermost text, whatever is wrong."""
+    for inner in ("X1 X2", "X[1/0]", "X1 Q"):
+        result = go(f'"A" = "{inner}"\n"B" = "\\"A\\" Z1"\nX1\nN10 "B"\nM30\n')
+        (error,) = result.diagnostics
+        assert (error.line, error.column, error.span.text) == (4, 5, '"B"')
+        assert [span.source.text for _, span in error.notes] == [inner]
+
+
 def test_macros_of_macros_have_a_limit():
     """A4 is 8 ** 4 words; A8 would be 16 million."""
     result = go(nested_macros("P1=P1+1", " ") + 'P1=0\n"A4"\nXP1\n"A8"\nM30\n')

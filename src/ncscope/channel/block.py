@@ -157,7 +157,7 @@ def _collect(draft: Draft, collected: Words, words: tuple[tree.Word, ...], depth
                 macros.define(draft, word)
             case tree.Macro():
                 collected.macro_uses += 1
-                with macros.used(word):
+                with macros.used(draft, word):
                     found = macros.words(draft, word, depth, collected.macro_uses)
                     _collect(draft, collected, found, depth + 1)
 

@@ -18,6 +18,9 @@ from ncscope.language.failures import used_at
 from ncscope.language.macro_texts import DEEPEST_MACRO, MOST_USES
 from ncscope.language.parser import parse_block
 
+TEXT = "text of the macro "
+"""How the source of a macro's text is named, before the name of the macro."""
+
 
 def define(draft: Draft, word: tree.MacroDefinition) -> None:
     """`"NAME" = "text"`; a later definition replaces the text."""
@@ -51,19 +54,27 @@ def words(draft: Draft, word: tree.Macro, depth: int, uses: int) -> tuple[tree.W
     if uses > MOST_USES:
         what = f"the block uses more than {MOST_USES} macros, those inside of macros included"
         draft.fail("20734", word.span, what)
-    found, error = _parsed(text, f"text of the macro {word.name}")
+    found, error = _parsed(text, TEXT + word.name)
     if error is not None:
         raise BlockError(error)
     return tuple(replace(item, span=word.span) for item in found)
 
 
 @contextmanager
-def used(word: tree.Macro) -> Iterator[None]:
-    """An error in the text of the macro becomes one at the place where the macro stands."""
+def used(draft: Draft, word: tree.Macro) -> Iterator[None]:
+    """An error in the text of the macro becomes one at the place where the macro stands.
+
+    The innermost text is shown with it.
+    """
     try:
         yield
     except BlockError as error:
-        raise BlockError(used_at(error.diagnostic, word.span)) from error
+        item = used_at(error.diagnostic, word.span)
+        text = draft.state.macros.get(word.name)
+        if text and not any(span.source.name.startswith(TEXT) for _, span in item.notes):
+            stands = Span(Source(TEXT + word.name, text), 0, len(text))
+            item = replace(item, notes=(*item.notes, ("the macro stands for this", stands)))
+        raise BlockError(item) from error
 
 
 @lru_cache(maxsize=1000)

@@ -234,7 +234,9 @@ def global_file(walker: Walker, draft: Draft, request: CallRequest) -> tuple[Lay
     if found is None:
         source = walker.load(name) if walker.load is not None else None
         if source is None:
-            hint = "it must lie in the folder of the program or below it"
+            hint = (
+                "it must lie in the folder of the program, in one of --subprograms, or below them"
+            )
             draft.fail("20369", request.span, f"the subprogram file {name} is not found", hint)
         found = walker.layouts[name] = layout(source, walker.skip)
         walker.layouts.setdefault(source.name, found)

@@ -61,6 +61,7 @@ _AXIS_COMMAND = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*\[[ \t\0\r]*([A-Za-z]\w*)", 
 _ASSIGN = re.compile(r"[ \t\0\r]*([-+*/]?=)(?!=)")
 _NO_ASSIGNMENT = re.compile(r"[ \t\0\r]*([-+*/%&|^<>!:=]+)")
 _EQUALS = re.compile(r"[ \t\0\r]*=(?!=)")
+_OPERATOR_END = re.compile(r"\s*[-+*/]?=\s*$")
 _SPINDLE = re.compile(r"[Ss](?:\.[A-Za-z_]\w*|\w+(?=[ \t\0\r]*=(?!=))|[0-9]+(?=[ \t\0\r]*\[))")
 _SPINDLE_BRACKET = re.compile(r"[Ss][ \t\0\r]*\[")
 _CYCLE_WORD = re.compile(r"@[XYZIJKSxyzijks](?![A-Za-z_])")
@@ -180,7 +181,7 @@ def _value_after(cursor: Cursor, start: int) -> Expression:
 def _no_value(cursor: Cursor, start: int) -> Exception:
     end = max(cursor.written_end(), start + 1)
     name = cursor.code[start:end]
-    hint = f"write a number or an expression behind {name.rstrip(' =')}"
+    hint = f"write a number or an expression behind {_OPERATOR_END.sub('', name)}"
     if "(" in cursor.span(start, cursor.at + 1).text:
         hint = "round brackets hold comments; write square brackets: [ ]"
     message = f"A value is missing after {name!r}."
