@@ -165,9 +165,10 @@ class Inspection:
             return
         first, count = self.swings[0], len(self.swings)
         widest = max(self.swings, key=lambda s: s.swing)
+        blocks = "" if first.last == first.row else f" in {first.last - first.row + 1} blocks"
         message = (
-            f"axis {first.axis} swings by {first.swing:.1f} degrees while the tool passes the "
-            f"singular direction at {first.distance:.4f} degrees"
+            f"axis {first.axis} swings by {first.swing:.1f} degrees{blocks} while the tool passes "
+            f"the singular direction at {first.distance:.4f} degrees"
         )
         if count > 1:
             message += f"; {count} swings, the widest by {widest.swing:.1f} degrees"

@@ -314,3 +314,10 @@ def test_a_complete_transformation_turns_in_a_plane_between_the_ends():
     assert [w for w in warnings(result) if w[0] == "N4101"] == [("N4101", 4)]
     z = next(t for t in ncscope.inspect(result).travel if t.axis.name == "Z")
     assert z.high == pytest.approx(100.0, abs=1e-3)
+
+
+def test_a_swing_over_several_blocks_says_so():
+    # RTCP, A stays at 3 degrees: C turns 180 degrees in each of two blocks.
+    text = "#TRAFO [91]\nG00 X0 C0 A3.1\nG01 F1 C180 A3\nC360 A3.1\n#TRAFO OFF\nM30\n"
+    (found,) = [d for d in ncscope.run(MACHINE, text).diagnostics if d.id == "N4102"]
+    assert found.line == 3 and "swings by 360.0 degrees in 2 blocks while" in found.message

@@ -13,6 +13,7 @@ from ncscope.cli import app
 from ncscope.kinematics.universal import UniversalKinematics
 from ncscope.views.pictures.chain import chain_scene
 from ncscope.views.pictures.files import chain_picture, path_picture
+from ncscope.views.pictures.labels import Label, draw_labels
 from ncscope.views.pictures.path import tool_path
 from ncscope.views.pictures.projection import VIEWS
 from ncscope.views.pictures.reduce import envelope, polyline
@@ -282,3 +283,24 @@ def test_channels_with_few_axes(axes):
     channel = tuple(ncscope.machine.Axis(n, i + 1) for i, n in enumerate("XY"[:axes]))
     result = ncscope.run(ncscope.Machine("m", channel), "G01 F1 X5\nX0\nM30\n")
     assert segments(path_picture(result, "p", "svg"), "top-feed") == 2
+
+
+@pytest.mark.parametrize("beyond", [0.95, 0.305])
+def test_labels_stay_off_lines(beyond: float) -> None:
+    """A line right of the point runs through the place of its label: above, below or left of it
+    there is room."""
+    from matplotlib.figure import Figure
+
+    axes = Figure(figsize=(6, 6)).add_axes((0, 0, 1, 1))
+    axes.set(xlim=(0, 1), ylim=(0, 1))
+    line = np.array([[0.305, 0.52], [0.95, 0.56]]) if beyond > 0.5 else np.array(
+        [[0.32, 0.1], [0.32, 0.95]]
+    )  # fmt: skip
+    labels = [Label(np.array([0.3, 0.5]), f"label {n}", "black") for n in (1, 2)]
+    draw_labels(axes, labels, lines=[line])
+    boxes = [text.get_window_extent().transformed(axes.transData.inverted()) for text in axes.texts]
+    points = line[0] + np.linspace(0, 1, 200)[:, None] * (line[1] - line[0])
+    for box in boxes:
+        assert not any(box.contains(*point) for point in points)
+        assert abs(box.y0 - 0.5) < 0.15 and min(abs(box.x0 - 0.3), abs(box.x1 - 0.3)) < 0.05
+    assert not boxes[0].overlaps(boxes[1])

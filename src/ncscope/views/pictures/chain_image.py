@@ -61,7 +61,17 @@ def _draw_view(axes: Axes, view: View, scene: ChainScene) -> None:
         labels += _draw_part(axes, view, part, scene.size)
     frame(axes, view)
     axes.margins(0.12)
-    draw_labels(axes, labels)
+    draw_labels(axes, labels, lines=[line for part in scene.parts for line in _lines(view, part)])
+
+
+def _lines(view: View, part: Part) -> list[Array]:
+    """What of a part a label should not cover, picture coordinates."""
+    drawn = [part.line if part.kind != "base" else part.line[:0], part.turn, _dot(part.point)]
+    return [view.flat(line) for line in drawn if line is not None and len(line) > 1]
+
+
+def _dot(point: Array | None) -> Array | None:
+    return None if point is None else np.array([point, point])
 
 
 def _draw_part(axes: Axes, view: View, part: Part, size: float) -> list[Label]:

@@ -1,10 +1,12 @@
-"""Labels beside points, none over another.
+"""Labels beside points, none over another, and beside lines where there is room.
 
 Enters: a drawn view and texts with their points. The view must have its final scale.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +17,12 @@ from ncscope.frames import Array
 HEIGHT, WIDTH = 0.042, 0.0165
 """Room of a line and of one letter, parts of the height and width of a view."""
 STEPS = 14
+DENSE = 60
+"""Points of a line that a label may cover."""
+COVERING = 4.0
+"""Covering a line is as bad as standing so many heights away from the point."""
+LEFT = 0.5
+"""Standing left of the point is as bad as so many heights away from it."""
 
 
 class Label(NamedTuple):
@@ -31,25 +39,35 @@ def plain(text: str) -> str:
 
 
 def draw_labels(
-    axes: Axes, labels: list[Label], size: float = 8.0, left_below: bool = False
+    axes: Axes,
+    labels: list[Label],
+    size: float = 8.0,
+    left_below: bool = False,
+    lines: Sequence[Array] = (),
 ) -> None:
-    """Each label right above its point, or left below it; one that would cover another moves."""
+    """Each label right above its point, or left below it; one that would cover another moves, and
+    one that would cover one of `lines` (k, 2) where a free place is near."""
     axes.apply_aspect()
     low, high = np.array(axes.get_xlim()), np.array(axes.get_ylim())
     origin, scale = np.array([low[0], high[0]]), np.array([np.ptp(low), np.ptp(high)])
     placed: list[tuple[float, float, float]] = []
+    drawn = _dense([(line - origin) / scale for line in lines])
     for at, text, colour in labels:
         width = WIDTH * len(text) * size / 8.0
         shift = (-0.012 - width, -0.012 - 0.7 * HEIGHT) if left_below else (0.014, 0.014)
         x, y = (float(v) for v in (at - origin) / scale + shift)
+        left = float(((at - origin) / scale)[0]) - 0.014 - width
         x = min(max(x, 0.005), 1.0 - width)
         step = -HEIGHT if left_below else HEIGHT
-        y = _free_height(placed, x, min(max(y, 0.005), 1.0 - HEIGHT), width, step)
+        columns = (x,) if left_below or left < 0.005 else (x, left)
+        x, y = _free_place(placed, drawn, columns, min(max(y, 0.005), 1.0 - HEIGHT), width, step)
         placed.append((x, y, width))
+        beside_left = x == left and not left_below
         axes.annotate(
             plain(text),
             tuple(at),
-            xytext=tuple(origin + scale * (x, y)),
+            xytext=tuple(origin + scale * (x + width * beside_left, y)),
+            ha="right" if beside_left else "left",
             fontsize=size,
             color=colour,
             zorder=8,
@@ -58,14 +76,44 @@ def draw_labels(
         )
 
 
-def _free_height(
-    placed: list[tuple[float, float, float]], x: float, y: float, width: float, step: float
-) -> float:
-    for count in range(STEPS):
-        for candidate in (y + count * step, y - count * step):
-            if not any(
-                abs(candidate - other) < HEIGHT and x < left + w and left < x + width
-                for left, other, w in placed
-            ):
-                return candidate
-    return y
+def _dense(lines: Sequence[Array]) -> Array:
+    """Points (k, 2) close to each other on all lines, parts of the view."""
+    share = np.linspace(0.0, 1.0, DENSE)[:, None]
+    pieces = [a + share * (b - a) for line in lines for a, b in pairwise(line)]
+    return np.concatenate([np.empty((0, 2)), *pieces])
+
+
+def _free_place(
+    placed: list[tuple[float, float, float]],
+    drawn: Array,
+    columns: Sequence[float],
+    y: float,
+    width: float,
+    step: float,
+) -> tuple[float, float]:
+    """The best place: over no other label, over no line, near the point, right of it."""
+    best, least = (columns[0], y), np.inf
+    for cost, x, height in _places(columns, y, step):
+        if cost >= least:
+            break
+        if any(
+            abs(height - other) < HEIGHT and x < left + w and left < x + width
+            for left, other, w in placed
+        ):
+            continue
+        inside = (drawn >= (x, height)) & (drawn <= (x + width, height + HEIGHT))
+        total = cost + COVERING * bool(inside.all(axis=1).any())
+        if total < least:
+            best, least = (x, height), total
+    return best
+
+
+def _places(
+    columns: Sequence[float], y: float, step: float
+) -> Iterator[tuple[float, float, float]]:
+    """What is bad about a place, and the place, best first; inside of the view."""
+    for count in range(2 * STEPS):
+        for place, x in enumerate(columns):
+            for height in {y + count * step / 2, y - count * step / 2}:
+                if count == 0 or 0.0 <= height <= 1.0 - HEIGHT:
+                    yield count / 2 + LEFT * place, x, height
