@@ -376,6 +376,7 @@ CATALOGUE: dict[str, Entry] = {
     "N4101": Entry("warning", "An axis goes beyond its software limit."),
     "N4102": Entry("warning", "A rotary axis swings while the tool passes its singular direction."),
     "N4103": Entry("warning", "A computed rotary axis turns back over the end of its range."),
+    "N4104": Entry("note", "The move that brings the tool nearest to its singular direction."),
     # Tables of poses, our own
     "N4201": Entry("error", "A table of poses cannot be read."),
     "N4202": Entry("warning", "A table of poses lacks a column or has one that is not used."),

@@ -1,11 +1,14 @@
 """Travel, software limits, swings at the pole and turned-over axes against hand calculations."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import ncscope
+from ncscope.cli import app
 from ncscope.coordinates import ActiveKinematics, Coordinates
 from ncscope.execution import Options
 from ncscope.kinematics.parameters import KinematicParameters
@@ -321,3 +324,14 @@ def test_a_swing_over_several_blocks_says_so():
     text = "#TRAFO [91]\nG00 X0 C0 A3.1\nG01 F1 C180 A3\nC360 A3.1\n#TRAFO OFF\nM30\n"
     (found,) = [d for d in ncscope.run(MACHINE, text).diagnostics if d.id == "N4102"]
     assert found.line == 3 and "swings by 360.0 degrees in 2 blocks while" in found.message
+
+
+def test_check_says_where_the_tool_is_nearest_to_the_pole(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("p.nc").write_text("#TRAFO [91]\nG00 X0 C0 A30\nG01 F1 A-12.5\nA40\n#TRAFO OFF\nM30\n")
+    machine = Path(__file__).parents[2] / "examples" / "machines" / "kin9_head"
+    done = CliRunner().invoke(app, ["check", "p.nc", "--machine", str(machine)])
+    said = done.stderr + done.stdout
+    assert "p.nc:3:1: note N4104: the tool comes nearest" in said and "here: 12.5000 deg" in said
+    Path("p.nc").write_text("G00 X0\nM30\n")
+    assert "N4104" not in CliRunner().invoke(app, ["check", "p.nc"]).stderr
