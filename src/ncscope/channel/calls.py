@@ -40,10 +40,10 @@ def _name(draft: Draft, target: tree.Expression | None, span: Span) -> str:
     """
     value: float | str = ""
     match target:
-        case tree.Name(text=text) | tree.Text(value=text):
+        case tree.Name(text=text):
             value = text
-        case tree.Macro(name=name):
-            value = draft.state.macros.get(name, name)
+        case tree.Macro(name=text) | tree.Text(value=text):
+            value = draft.state.macros.get(text, text)
         case tree.Variable() | tree.Parameter() | tree.CycleParameter():
             value = evaluate_value(draft, target)
     if not isinstance(value, str) or not value:
