@@ -137,6 +137,8 @@ class ChannelSettings:
     rotation_sequence: str = "ZYX"  # P-CHAN-00394
     rotation_fixed: bool = False  # P-CHAN-00393
     offsets_per_level: bool = True  # P-CHAN-00397
+    orientation_words: str = "ANGLE"  # P-CHAN-00177 ori.mode
+    tool_offsets_stay: bool = False  # P-CHAN-00851 ax_offsets_with_active_kin
     direction_turns: bool = False  # P-CHAN-00247 ori_wcs
     direction_path: int = 0  # P-CHAN-00417 ori_interpolation_mode
     rapid_straight: bool = False  # P-CHAN-00423 suppress_trafo_in_g0_blocks

@@ -158,7 +158,10 @@ def test_a_constructor_that_fails(tmp_path: Path) -> None:
         (GOOD.replace("500", "91"), "its attribute id is 91, but has to be a number from 500"),
         (GOOD.replace("500", "'a'"), "its attribute id is 'a'"),
         (GOOD.replace("def forward", "def backward"), "it has no method forward"),
-        (GOOD + GOOD.replace("class K", "class L"), "its id 500 is used by another class"),
+        (
+            GOOD + GOOD.replace("class K", "class L"),
+            "k.py: L is no kinematics: its id 500 is used by k.py: K",
+        ),
         ("\0", "k.py cannot be run"),
     ],
 )
@@ -214,3 +217,28 @@ def test_a_table_keeps_the_rows_that_can_be_reached(tmp_path: Path) -> None:
     alone = call("kin", "inverse", "X=-40", *options).stdout.splitlines()[1]
     axes = [[float(v) for v in line.split(",")[-6:-3]] for line in (lines[3], alone)]
     assert axes[0] == pytest.approx(axes[1])
+
+
+def test_what_is_wrong_with_installed_classes_is_said_and_stops_no_others(monkeypatch):
+    """Only warnings: this machine may not need them. Of two with one id neither is taken."""
+
+    def sound(name: str, id: int) -> type:
+        def same(self, program, *more):
+            return program
+
+        methods = {"__init__": lambda self, param, axis_names: None, "forward": same}
+        return type(name, (), {"id": id, "inverse": same, **methods})
+
+    classes = [sound("A", 500), sound("B", 600), sound("C", 600), sound("Low", 499), 5]
+    points = [
+        SimpleNamespace(name=f"e{i}", value="a", load=lambda c=c: c) for i, c in enumerate(classes)
+    ]
+    monkeypatch.setattr(user_kinematics.metadata, "entry_points", lambda group: points)
+    lists, _ = ncscope.load_machine(LISTS)
+    own, found = ncscope.with_user_kinematics(lists)
+    assert sorted(own.kinematic_types) == [500]
+    assert {(d.id, str(d.severity)) for d in found} == {("N4301", "warning")}
+    said = [d.message for d in found]
+    assert said[0] == "entry point e2: C is no kinematics: its id 600 is used by entry point e1: B"
+    assert "e3: Low" in said[1] and "from 500 to 999" in said[1]
+    assert said[2] == "entry point e4: 5 is no kinematics: it is no class"

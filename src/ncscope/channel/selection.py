@@ -36,6 +36,7 @@ def activate(draft: Draft, span: Span, ids: tuple[int, int]) -> None:
     held = draft.state.kinematics
     if held.is_on and held.active == ids:
         return
+    refuse_unmodelled(draft, span)
     model = kinematics_of(draft, span, ids)
     pose = model.pose_of(draft.state.position.axes)
     settings = draft.machine.settings
@@ -49,6 +50,18 @@ def activate(draft: Draft, span: Span, ids: tuple[int, int]) -> None:
     )
     draft.state = replace(draft.state, kinematics=replace(held, active=ids))
     draft.set_coordinates(replace(draft.state.coordinates, kinematics=active), span)
+
+
+def refuse_unmodelled(draft: Draft, span: Span) -> None:
+    """Fails for settings of the channel that would give other positions than those computed."""
+    settings, tool = draft.machine.settings, draft.state.tool.record
+    if settings.orientation_words.upper() != "ANGLE":
+        what = f"ori.mode {settings.orientation_words} (P-CHAN-00177) is not supported"
+        draft.fail("N2001", span, what, "with ori.mode ANGLE the words A, B, C are angles")
+    if settings.tool_offsets_stay and any(tool.axis_offsets.get(axis) for axis in range(3)):
+        what = "ax_offsets_with_active_kin 1 (P-CHAN-00851) is not supported"
+        hint = "a tool with ax_versatz[0] to [2] is selected; param[3] to [5] shift it, too"
+        draft.fail("N2001", span, what, hint)
 
 
 def kinematics_of(draft: Draft, span: Span, ids: tuple[int, int]) -> KinematicStep:
@@ -107,7 +120,8 @@ def parameters_of(draft: Draft, span: Span, step: int, id: int) -> KinematicPara
         number = "21630" if step == PROGRAM_STEP else "292005"
         message = f"kinematics {id} is not configured{where[step]}; configured: {known}"
         draft.fail(number, span, message)
-    return _with_tool(draft, span, held[id], draft.state.tool.record) if step == 0 else held[id]
+    parameters = held[id].corrected()
+    return _with_tool(draft, span, parameters, draft.state.tool.record) if step == 0 else parameters
 
 
 def _with_tool(

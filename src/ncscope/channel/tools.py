@@ -9,7 +9,7 @@ import numpy as np
 
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
-from ncscope.channel.selection import kinematics_of
+from ncscope.channel.selection import kinematics_of, refuse_unmodelled
 from ncscope.diagnostics import Span
 from ncscope.language import tree
 from ncscope.machine import Tool
@@ -27,6 +27,8 @@ def select(draft: Draft, index: int, span: Span, together: bool = False) -> None
     tool = Tool() if index == 0 else _record(draft, index, span)
     _check_kinematics(draft, index, tool, span)
     draft.state = offsets.select_tool(draft.state, index, tool, draft.place)
+    if before.coordinates.kinematics is not None:
+        refuse_unmodelled(draft, span)
     if dict(before.tool.record.kinematic_parameters) != dict(tool.kinematic_parameters):
         renew_kinematics(draft, span)
     moved = not np.array_equal(draft.state.position.program, before.position.program)

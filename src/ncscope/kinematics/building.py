@@ -42,7 +42,7 @@ def build(
     default_mode: P-CHAN-00112. types: builders of further types. reading: for type 91.
     Raises KinematicsError for an unknown type, or with the first fault of the parameters.
     """
-    type = type_of(parameters)
+    type, parameters = type_of(parameters), parameters.corrected()
     if types and type in types:
         return types[type](parameters, axis_names, default_mode)
     if type != UNIVERSAL:

@@ -53,6 +53,7 @@ class KinematicParameters:
 
     `values`: 70 numbers in list units. `origins`: index -> all writers in order (any value; lists
     and NC programs put a Span there), so that a fault can point at the lines that caused it.
+    `corrections`: index -> what a calibration adds to the number (P-CHAN-00438), with its writer.
     """
 
     id: int = 91
@@ -60,6 +61,7 @@ class KinematicParameters:
     name: str = ""
     values: tuple[float, ...] = (0.0,) * PARAMETER_COUNT
     origins: Mapping[int, tuple[Any, ...]] = field(default_factory=dict)
+    corrections: Mapping[int, tuple[float, Any]] = field(default_factory=dict)
 
     def with_value(self, index: int, value: float, origin: Any = None) -> KinematicParameters:
         """The same data set with one number written. Raises IndexError for index not in 0..69."""
@@ -69,6 +71,20 @@ class KinematicParameters:
         origins = dict(self.origins)
         origins[index] = (*origins.get(index, ())[-MAX_WRITERS:], origin)
         return replace(self, values=values, origins=origins)
+
+    def with_correction(self, index: int, value: float, origin: Any = None) -> KinematicParameters:
+        """The same data set with one correction. Raises IndexError for index not in 0..69."""
+        if not 0 <= index < PARAMETER_COUNT:
+            raise IndexError(f"corr[{index}] does not exist; indices are 0 to 69")
+        return replace(self, corrections={**self.corrections, index: (value, origin)})
+
+    def corrected(self) -> KinematicParameters:
+        """The numbers a kinematics is made of: each with its correction, and none left to add."""
+        result = replace(self, corrections={}) if self.corrections else self
+        for index, (value, origin) in self.corrections.items():
+            if value:
+                result = result.with_value(index, self.values[index] + value, origin)
+        return result
 
     def get(self, name: str) -> float:
         """The number of a field such as `axis[3].point[0]`; list units."""

@@ -67,7 +67,7 @@ def _fields_of_another_type(item: KinematicSet, type: int) -> Iterator[Diagnosti
 def _faults(item: KinematicSet, machine: Machine) -> Iterator[Diagnostic]:
     """N3009 for what would stop the program when it selects this kinematics."""
     mode = machine.settings.orientation_mode
-    for fault in validate(item.parameters, len(machine.axes), mode, machine.axis_names):
+    for fault in validate(item.parameters.corrected(), len(machine.axes), mode, machine.axis_names):
         span, notes = blame(item, tuple(fault.indices))
         message = (
             f"kinematics {item.id} will fail with {fault.id} when it is selected: {fault.message}"

@@ -25,6 +25,8 @@ _SLOT = re.compile(
 
 _AXIS = re.compile(r"(?P<slot>.*\.axis\[)(?P<axis>\d+)\]")
 
+_CORRECTION = re.compile(r"corr\[(\d+)\]")
+
 PROGRAM_STEP = -1
 """The step of a PCS transformation (trafo_pcs)."""
 
@@ -91,8 +93,10 @@ def read_sets(
         # `kin_step[0].trafo[j]` and `trafo[j]` are one place (TF5200 multi-step transformations).
         slot = replace(slot, spelling=slot.spelling.removeprefix("kin_step[0]."))
         current = sets.get(slot) or _empty(slot, reading)
-        index = field_index(field)
-        if index is None:
+        index, correction = field_index(field), _CORRECTION.fullmatch(field)
+        if correction is not None:
+            sets[slot] = _with_correction(current, int(correction[1]), reading)
+        elif index is None:
             sets[slot] = _with_property(current, field, reading)
         else:
             overwritten.extend((place, *item) for item in _overwritten(current, index, reading))
@@ -139,6 +143,13 @@ def _with_number(item: KinematicSet, index: int, reading: Reading) -> KinematicS
     value = float(reading.value or 0)
     origin = reading.entry.key_span
     return replace(item, parameters=item.parameters.with_value(index, value, origin))
+
+
+def _with_correction(item: KinematicSet, index: int, reading: Reading) -> KinematicSet:
+    """P-CHAN-00438; an index that does not exist is reported where the reading is made."""
+    value = float(reading.value or 0)
+    origin = reading.entry.key_span
+    return replace(item, parameters=item.parameters.with_correction(index, value, origin))
 
 
 def _overwritten(

@@ -41,6 +41,8 @@ SETTINGS_OF_KEYS = {
     "messtyp": "measuring_type",
     "meas_error_no_signal": "probe_must_answer",
     "p_param_haltend": "keep_parameters",
+    "ori.mode": "orientation_words",
+    "ax_offsets_with_active_kin": "tool_offsets_stay",
     "ori_wcs": "direction_turns",
     "ori_interpolation_mode": "direction_path",
     "suppress_trafo_in_g0_blocks": "rapid_straight",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 import types
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from importlib import metadata
@@ -26,8 +27,9 @@ def with_user_kinematics(
 ) -> tuple[Machine, tuple[Diagnostic, ...]]:
     """The machine with the kinematics of a Python file and of installed packages.
 
-    Faulty files and classes are diagnostics N4301. Raises OSError when the file cannot be read.
-    The file is run as a program: name only a file that you trust.
+    Faulty files and classes are diagnostics N4301: errors in the file that the user names, warnings
+    in installed packages, which this machine may not need. Raises OSError when the file cannot be
+    read. The file is run as a program: name only a file that you trust.
     """
     types: dict[int, Builder] = {}
     found: list[Diagnostic] = []
@@ -69,6 +71,10 @@ def read_kinematics(
 
 
 def _installed() -> tuple[dict[int, Builder], list[Diagnostic]]:
+    """Classes of installed packages. What is wrong with one of them does not stop the others.
+
+    Of several with one id none is taken: which one is meant only the user can say, with a file.
+    """
     classes: list[tuple[str, type]] = []
     found: list[Diagnostic] = []
     for point in sorted(metadata.entry_points(group=GROUP), key=lambda p: (p.name, p.value)):
@@ -78,24 +84,30 @@ def _installed() -> tuple[dict[int, Builder], list[Diagnostic]]:
             what = f"entry point {point.name} ({point.value}) cannot be loaded: {_said(error)}"
             found.append(diagnostic("N4301", None, what, severity=Severity.WARNING))
     builders, problems = _builders(classes)
-    return builders, [*found, *problems]
+    found.extend(replace(d, severity=Severity.WARNING) for d in problems)
+    sound = (cls for _, cls in classes if isinstance(cls, type) and not faults_of(cls))
+    ids = Counter(getattr(cls, "id", 0) for cls in sound)
+    return {id: b for id, b in builders.items() if ids[id] == 1}, found
 
 
 def _builders(
     classes: Iterable[tuple[str, type]],
 ) -> tuple[dict[int, Builder], tuple[Diagnostic, ...]]:
     builders: dict[int, Builder] = {}
+    taken: dict[int, str] = {}
     found = []
     for place, cls in classes:
         name = getattr(cls, "__name__", str(cls))
         faults = faults_of(cls) if isinstance(cls, type) else ("it is no class",)
         if not faults and cls.id in builders:  # type: ignore[attr-defined]
-            faults = (f"its id {cls.id} is used by another class",)  # type: ignore[attr-defined]
+            other = taken[cls.id]  # type: ignore[attr-defined]
+            faults = (f"its id {cls.id} is used by {other}",)  # type: ignore[attr-defined]
         if faults:
             message = f"{place}: {name} is no kinematics: {'; '.join(faults)}"
             found.append(diagnostic("N4301", None, message))
             continue
         builders[cls.id] = builder_of(cls)  # type: ignore[attr-defined]
+        taken[cls.id] = f"{place}: {name}"  # type: ignore[attr-defined]
     return builders, tuple(found)
 
 
