@@ -43,6 +43,9 @@ def test_an_unknown_type_says_what_to_do():
     own = replace(machine(), kinematic_parameters=sets)
     assert "ncscope convert --kin 9" in only_error("#TRAFO [9]", own).hint
     assert only_error("#TRAFO [12]", own).hint == "known types: 91"
+    meant = replace(machine().kinematic_parameters[91], id=51, type=51)
+    error = only_error("#TRAFO [51]", replace(machine(), kinematic_parameters={51: meant}))
+    assert "universal kinematics with another id needs type 91" in error.hint
     assert "--kinematics FILE.py" in only_error("#TRAFO [600]", own).hint
 
 

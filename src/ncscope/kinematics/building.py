@@ -46,14 +46,22 @@ def build(
     if types and type in types:
         return types[type](parameters, axis_names, default_mode)
     if type != UNIVERSAL:
-        raise KinematicsError("N2001", f"type {type} is not supported", hint=_help(type, types))
+        raise KinematicsError(
+            "N2001", f"type {type} is not supported", hint=_help(parameters, types)
+        )
     return UniversalKinematics.from_parameters(parameters, axis_names, default_mode, reading)
 
 
-def _help(type: int, types: Mapping[int, Builder] | None) -> str:
+def _help(parameters: KinematicParameters, types: Mapping[int, Builder] | None) -> str:
+    type = type_of(parameters)
     known = ", ".join(str(t) for t in sorted({UNIVERSAL, *(types or ())}))
     if FIRST_ID <= type <= LAST_ID:
         return f"give its Python class with --kinematics FILE.py; known types: {known}"
     if type in LIBRARY:
         return f"ncscope convert --kin {type} writes its list as a data set of type {UNIVERSAL}"
+    if (
+        type == parameters.id
+        and parameters.get("axis[0].type") == parameters.get("axis[1].type") == 1
+    ):
+        return f"a data set of the universal kinematics with another id needs type {UNIVERSAL}"
     return f"known types: {known}"
