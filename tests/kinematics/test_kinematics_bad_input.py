@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from test_kinematics_commands import COMPLETE, LINEAR, errors, machine, polar_machine, run
+from test_kinematics_commands import COMPLETE, HEAD, LINEAR, errors, machine, polar_machine, run
 
 import ncscope
 from ncscope.kinematics import KinematicParameters
@@ -62,6 +62,14 @@ def test_one_rotary_axis_is_no_plural():
     fields["axis"] = [*LINEAR, {"type": 2, "orientation": [1, 0, 0]}]
     error = only_error("#TRAFO [91]\nA30 C10", machine(fields, "XYZAC"))
     assert error.message.startswith("the rotary axis A cannot bring the tool")
+
+
+def test_mode_10_wants_axes_that_are_called_u_v_w():
+    """FCT-C27 5.1. Otherwise C30 would be taken as a component of a vector."""
+    fields = HEAD | {"programming_mode": 10}
+    error = only_error("#TRAFO [91]", machine(fields, "XYZCAB"))
+    assert error.id == "292040" and "called C, A, B" in error.message
+    assert run("#TRAFO [91]\nX1\n#TRAFO OFF", machine(fields, "XYZUVW")).ok
 
 
 # --- PCS transformations -----------------------------------------------------------------------

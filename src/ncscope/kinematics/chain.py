@@ -134,7 +134,7 @@ def validate(
     """Everything wrong with a data set; empty when the transformation can be selected.
 
     default_mode: P-CHAN-00112, counts when the field programming_mode is 0.
-    axis_names: channel axis names by index; they only make the messages clearer.
+    axis_names: channel axis names by index, where they are known.
     The control reports these errors when the transformation is selected.
     """
     return tuple(_Check(parameters, channel_axis_count, default_mode, tuple(axis_names)).faults())
@@ -372,6 +372,15 @@ class _Check:
                 (INDEX_OF_FIELD[field],),
                 f"at least {needed} axes in the channel, without a gap: gruppe[0].achse"
                 f"[{self.channel_axis_count}] is missing",
+            )
+        named = tuple(name[:1].upper() for name in self.axis_names[3:6])
+        if field == "programming_mode" and len(named) == 3 and named != tuple("UVW"):
+            yield Fault(
+                "292040",
+                f"programming_mode 10 takes the axes 3, 4, 5 as U, V, W, but they are called "
+                f"{', '.join(self.axis_names[3:6])}",
+                (INDEX_OF_FIELD[field],),
+                "six axes in the order X, Y, Z, U, V, W, or a mode with angles (12 to 19)",
             )
 
 
