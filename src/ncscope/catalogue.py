@@ -46,7 +46,7 @@ CATALOGUE: dict[str, Entry] = {
     "20990": Entry("error", "The tool belongs to another kinematics than the active one."),
     "20687": Entry("error", "The kinematics cannot be changed while a transformation is active."),
     "21022": Entry("error", "The variable cannot be written while a transformation is active."),
-    "21126": Entry("error", "Forward and backward transformation disagree."),
+    "292023": Entry("error", "Forward and backward transformation disagree."),
     "21247": Entry("warning", "A transformation is still active at program end."),
     "21630": Entry("error", "The kinematic id is unknown."),
     "20662": Entry("error", "The kinematics has no rotary axis."),

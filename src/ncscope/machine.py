@@ -144,6 +144,7 @@ class ChannelSettings:
     rapid_straight: bool = False  # P-CHAN-00423 suppress_trafo_in_g0_blocks
     transformation_at_start: bool = False  # P-CHAN-00151 auto_enable_kin_trafo
     transformation_ends: bool = False  # P-CHAN-00152 auto_disable_kin_trafo
+    deviation: float = 3e-4  # P-CHAN-00228 permitted_trafo_deviation_limit, mm and degrees
     tool_orientation_axis: int = 0  # P-CHAN-00188 tool_ori_cs.axis
     tool_orientation_mode: int = 0  # P-CHAN-00189 tool_ori_cs.mode
     ecs_axis: str = ""  # P-CHAN-00031 kind_of_2nd_ecs_ax

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -133,6 +134,40 @@ def test_a_faulty_answer_is_a_diagnostic(tmp_path: Path, body: str, said: str) -
         assert error.id in ("N2601", "N2602") and said in error.message
 
 
+def test_forward_has_to_undo_inverse(tmp_path: Path) -> None:
+    """The control compares both; 3 list units are allowed unless the list says more."""
+    for shift, ok in ((0.0002, True), (0.0004, False), (5.0, False)):
+        own, _ = with_file(tmp_path, GOOD.replace("return program", f"return program + {shift}"))
+        result = ncscope.run(own, "#TRAFO [500]\nX1\n#TRAFO OFF\nM30\n")
+        assert result.ok == ok
+    (error,) = [d for d in result.diagnostics if d.is_error]
+    assert (error.id, error.line) == ("292023", 2)
+    assert "K.forward gives (" in error.message
+    assert "P-CHAN-00228" in error.hint
+    coarse = replace(own, settings=replace(own.settings, deviation=6.0))
+    again, _ = ncscope.with_user_kinematics(coarse, tmp_path / "k.py")
+    assert ncscope.run(again, "#TRAFO [500]\nX1\n#TRAFO OFF\nM30\n").ok
+
+
+def test_words_that_mean_the_same_position_may_differ(tmp_path: Path) -> None:
+    """A radius and an angle: `forward` cannot know whether 30 or 390 degrees were written."""
+    polar = """
+import numpy as np
+class Polar:
+    id = 500
+    def __init__(self, param, axis_names): pass
+    def forward(self, axes, tool_length):
+        x, y = axes[:, 0], axes[:, 1]
+        return np.column_stack([np.hypot(x, y), np.degrees(np.arctan2(y, x)), axes[:, 2]])
+    def inverse(self, program, tool_length, near):
+        r, t = program[:, 0], np.radians(program[:, 1])
+        return np.column_stack([r * np.cos(t), r * np.sin(t), program[:, 2]])
+"""
+    own, _ = with_file(tmp_path, polar)
+    result = ncscope.run(own, "#TRAFO [500]\nX10 Y390\nX-10 Y-90\n#TRAFO OFF\nM30\n").check()
+    assert result.acs[-1] == pytest.approx([0, 10, 0], abs=1e-9)
+
+
 def test_inputs_of_a_class_are_copies(tmp_path: Path) -> None:
     own, _ = with_file(tmp_path, GOOD.replace("return program", "program[:] = 7; return program"))
     program = np.ones((2, 3))
@@ -183,7 +218,7 @@ def test_installed_classes_come_by_entry_point(monkeypatch: pytest.MonkeyPatch) 
             self.param = param
 
         def forward(self, axes, tool_length):
-            return axes
+            return axes - self.param[0] / 1e4
 
         def inverse(self, program, tool_length, near):
             return program + self.param[0] / 1e4

@@ -2,8 +2,9 @@
 
 Enters: a class with `forward` and `inverse` over arrays. Leaves: a builder of steps that check
 every answer of the class: what is raised, shapes, and values that are not finite become
-KinematicsError N2601 or N2602 with the rows, never an exception of another kind.
-Source: TF5200 TcCOM transformations (500 to 999), P-CHAN-00262.
+KinematicsError N2601 or N2602 with the rows, never an exception of another kind. An `inverse` that
+`forward` does not undo is 292023, as on the control.
+Source: TF5200 TcCOM transformations (500 to 999), P-CHAN-00228, P-CHAN-00262.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ from ncscope.kinematics.step import Builder, KinematicsError, Pose
 
 Array = NDArray[np.float64]
 
-FAULTY, NO_SOLUTION = "N2601", "N2602"
+FAULTY, NO_SOLUTION, NOT_INVERSE = "N2601", "N2602", "292023"
+DEVIATION = 3e-4
+"""mm and degrees: what `forward` may miss by, unless the channel says otherwise (P-CHAN-00228)."""
 
 
 def faults_of(cls: type) -> tuple[str, ...]:
@@ -36,8 +39,11 @@ def faults_of(cls: type) -> tuple[str, ...]:
     return tuple(found)
 
 
-def builder_of(cls: type) -> Builder:
-    """Makes steps of a class that `faults_of` finds nothing wrong with."""
+def builder_of(cls: type, deviation: float = DEVIATION) -> Builder:
+    """Makes steps of a class that `faults_of` finds nothing wrong with.
+
+    deviation: mm and degrees between programmed values and `forward` of their axis values.
+    """
 
     def build(
         parameters: KinematicParameters, axis_names: Sequence[str], default_mode: int
@@ -48,7 +54,7 @@ def builder_of(cls: type) -> Builder:
         except (Exception, SystemExit) as error:
             raise _failed(cls.__name__, "cannot be set up", error) from error
         name = parameters.name or str(getattr(cls, "name", "") or cls.__name__)
-        return UserKinematics(parameters.id, name, len(names), user)
+        return UserKinematics(parameters.id, name, len(names), user, deviation)
 
     return build
 
@@ -64,6 +70,7 @@ class UserKinematics:
     name: str
     n: int
     user: Any = field(repr=False)
+    deviation: float = DEVIATION
 
     @property
     def orientation(self) -> tuple[int, ...]:
@@ -90,9 +97,10 @@ class UserKinematics:
         """Axis values (..., n_channel) for programmed values (..., n_channel)."""
         rows, shape = self._rows(program)
         start = np.zeros(self.n) if near is None else self._rows(near)[0][0].copy()
-        return self._ask(
-            "inverse", rows, (len(rows), self.n), rows, float(tool_length), start
-        ).reshape(*shape, self.n)
+        shape_of_rows, length = (len(rows), self.n), float(tool_length)
+        axes = self._ask("inverse", rows, shape_of_rows, rows, length, start)
+        self._compare(rows, axes, length, start)
+        return axes.reshape(*shape, self.n)
 
     def program(
         self,
@@ -138,6 +146,28 @@ class UserKinematics:
             message = f"{who} has no solution for ({values})"
             raise KinematicsError(NO_SOLUTION, message, tuple(int(i) for i in bad))
         return answer
+
+    def _compare(self, program: Array, axes: Array, length: float, near: Array) -> None:
+        """Fails where `forward` gives other programmed values, unless they mean the same axes: the
+        words of a point may differ by a whole turn."""
+        back = self._ask("forward", axes, axes.shape, axes, length)
+        apart = np.flatnonzero((np.abs(back - program) > self.deviation).any(axis=1))
+        if not len(apart):
+            return
+        other = back[apart]
+        again = self._ask("inverse", other, other.shape, other, length, near)
+        bad = apart[(np.abs(again - axes[apart]) > self.deviation).any(axis=1)]
+        if len(bad):
+            given, found = (", ".join(f"{v:g}" for v in a[bad[0]]) for a in (program, back))
+            name = type(self.user).__name__
+            message = f"{name}.forward gives ({found}) for the axes that {name}.inverse"
+            raise KinematicsError(
+                NOT_INVERSE,
+                f"{message} gives for ({given})",
+                tuple(int(i) for i in bad),
+                "one has to undo the other; permitted_trafo_deviation_limit (P-CHAN-00228) is "
+                f"{self.deviation:g} mm and degrees",
+            )
 
     def _unit(self, vectors: Array) -> Array:
         length = np.linalg.norm(vectors, axis=1, keepdims=True)

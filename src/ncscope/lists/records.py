@@ -48,6 +48,7 @@ SETTINGS_OF_KEYS = {
     "suppress_trafo_in_g0_blocks": "rapid_straight",
     "auto_enable_kin_trafo": "transformation_at_start",
     "auto_disable_kin_trafo": "transformation_ends",
+    "permitted_trafo_deviation_limit": "deviation",
     "tool_ori_cs.axis": "tool_orientation_axis",
     "tool_ori_cs.mode": "tool_orientation_mode",
     "coordinate_system.rotation_sequence": "rotation_sequence",
@@ -69,6 +70,7 @@ SETTINGS_OF_KEYS = {
 """List keys of the channel settings and their names in `ChannelSettings`."""
 ECS_WORDS = {"ecs_axis": ("X", "Y"), "ecs_plane": ("XY", "ZX", "YZ")}
 SETTING_UNITS = {
+    "deviation": UNITS,
     "centre_shift": UNITS,
     "centre_shift_share": 1000.0,
     "radius_difference": UNITS,

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.kinematics.step import Builder
-from ncscope.kinematics.user import builder_of, faults_of
+from ncscope.kinematics.user import DEVIATION, builder_of, faults_of
 from ncscope.machine import Machine
 
 GROUP = "ncscope.kinematics"
@@ -34,9 +34,9 @@ def with_user_kinematics(
     types: dict[int, Builder] = {}
     found: list[Diagnostic] = []
     if machine.kinematic_ids_of_user:
-        types, found = _installed()
+        types, found = _installed(machine.settings.deviation)
     if path is not None:
-        own, problems = read_kinematics(path)
+        own, problems = read_kinematics(path, machine.settings.deviation)
         types = {**types, **own}
         found.extend(problems)
     if not types:
@@ -45,7 +45,7 @@ def with_user_kinematics(
 
 
 def read_kinematics(
-    path: str | Path,
+    path: str | Path, deviation: float = DEVIATION
 ) -> tuple[Mapping[int, Builder], tuple[Diagnostic, ...]]:
     """The kinematics classes that a Python file defines, by id. Raises OSError."""
     path = Path(path)
@@ -67,10 +67,10 @@ def read_kinematics(
         hint = "write a class with id = 500, forward and inverse; see docs/user_kinematics.md"
         message = f"{path.name} defines no kinematics class"
         return {}, (diagnostic("N4301", None, message, hint),)
-    return _builders((path.name, cls) for cls in classes)
+    return _builders(((path.name, cls) for cls in classes), deviation)
 
 
-def _installed() -> tuple[dict[int, Builder], list[Diagnostic]]:
+def _installed(deviation: float) -> tuple[dict[int, Builder], list[Diagnostic]]:
     """Classes of installed packages. What is wrong with one of them does not stop the others.
 
     Of several with one id none is taken: which one is meant only the user can say, with a file.
@@ -83,7 +83,7 @@ def _installed() -> tuple[dict[int, Builder], list[Diagnostic]]:
         except (Exception, SystemExit) as error:
             what = f"entry point {point.name} ({point.value}) cannot be loaded: {_said(error)}"
             found.append(diagnostic("N4301", None, what, severity=Severity.WARNING))
-    builders, problems = _builders(classes)
+    builders, problems = _builders(classes, deviation)
     found.extend(replace(d, severity=Severity.WARNING) for d in problems)
     sound = (cls for _, cls in classes if isinstance(cls, type) and not faults_of(cls))
     ids = Counter(getattr(cls, "id", 0) for cls in sound)
@@ -91,7 +91,7 @@ def _installed() -> tuple[dict[int, Builder], list[Diagnostic]]:
 
 
 def _builders(
-    classes: Iterable[tuple[str, type]],
+    classes: Iterable[tuple[str, type]], deviation: float
 ) -> tuple[dict[int, Builder], tuple[Diagnostic, ...]]:
     builders: dict[int, Builder] = {}
     taken: dict[int, str] = {}
@@ -106,7 +106,7 @@ def _builders(
             message = f"{place}: {name} is no kinematics: {'; '.join(faults)}"
             found.append(diagnostic("N4301", None, message))
             continue
-        builders[cls.id] = builder_of(cls)  # type: ignore[attr-defined]
+        builders[cls.id] = builder_of(cls, deviation)  # type: ignore[attr-defined]
         taken[cls.id] = f"{place}: {name}"  # type: ignore[attr-defined]
     return builders, tuple(found)
 
