@@ -11,6 +11,7 @@ from test_kinematics_commands import COMPLETE, HEAD, LINEAR, errors, machine, po
 
 import ncscope
 from ncscope.kinematics import KinematicParameters
+from ncscope.lists import check_lists
 from ncscope.machine import ChannelSettings
 
 
@@ -113,6 +114,12 @@ def test_lists_may_spell_pcs_transformations_as_the_programming_manual(tmp_path)
     assert sorted(own.program_step_parameters) == [10, 20]
     first = own.program_step_parameters[10]
     assert (first.type, first.values[1]) == (500, 4)
+
+
+def test_check_says_that_a_type_is_no_pcs_transformation(tmp_path):
+    lists(tmp_path, "trafo_pcs[0].id 10", "trafo_pcs[0].type 91", "trafo_pcs[1].id 500")
+    (found,) = [d for d in check_lists(tmp_path) if d.id == "N3009"]
+    assert "trafo_pcs[0] will fail with 22287" in found.message and found.line == 7
 
 
 def test_both_spellings_of_the_first_step_are_one_place(tmp_path):

@@ -18,11 +18,18 @@ from ncscope.kinematics.universal import UniversalKinematics
 UNIVERSAL = 91
 FIRST_ID, LAST_ID = 500, 999
 """Types of the user's own kinematics."""
+READY_MADE_PCS = frozenset({212})
+"""PCS transformations of the control itself; none is modelled, so selecting one is refused."""
 
 
 def type_of(parameters: KinematicParameters) -> int:
     """The type of a data set; 0 takes the id (P-CHAN-00829)."""
     return parameters.type or parameters.id
+
+
+def can_be_pcs(type: int) -> bool:
+    """Whether a control has PCS transformations (#TRAFO PCS) of this type; else error 22287."""
+    return type in READY_MADE_PCS or FIRST_ID <= type <= LAST_ID
 
 
 def is_known(parameters: KinematicParameters, types: Mapping[int, Builder]) -> bool:

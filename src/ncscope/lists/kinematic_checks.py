@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from itertools import takewhile
 
 from ncscope.diagnostics import Diagnostic, diagnostic
+from ncscope.kinematics.building import can_be_pcs
 from ncscope.kinematics.chain import Fault, validate
 from ncscope.kinematics.parameters import (
     FIELD_OF_INDEX,
@@ -20,7 +21,7 @@ from ncscope.kinematics.parameters import (
 )
 from ncscope.lists.blame import axis_count, blame, direction_of, lint
 from ncscope.lists.channel_checks import check_against_channel
-from ncscope.lists.kinematic_sets import KinematicSet
+from ncscope.lists.kinematic_sets import PROGRAM_STEP, KinematicSet
 from ncscope.lists.reading import Loaded
 from ncscope.machine import Machine
 
@@ -43,6 +44,9 @@ def check_kinematics(loaded: Loaded) -> Iterator[Diagnostic]:
         parameters = used[item.slot.step].get(item.id)
         overruled = parameters is None or parameters.values is not item.parameters.values
         if overruled or parameters is None:
+            continue
+        if item.slot.step == PROGRAM_STEP:
+            yield from _no_pcs_type(item, parameters.type)
             continue
         if parameters.type != UNIVERSAL:
             yield from _fields_of_another_type(item, parameters.type)
@@ -73,6 +77,14 @@ def _faults(item: KinematicSet, machine: Machine) -> Iterator[Diagnostic]:
             f"kinematics {item.id} will fail with {fault.id} when it is selected: {fault.message}"
         )
         yield diagnostic("N3009", span, message + _unwritten(item, fault), fault.hint, notes=notes)
+
+
+def _no_pcs_type(item: KinematicSet, type: int) -> Iterator[Diagnostic]:
+    if not can_be_pcs(type):
+        what = f"type {type} is no PCS transformation"
+        message = f"{item.slot.spelling} will fail with 22287 when it is selected: {what}"
+        hint = "PCS transformations have types 500 to 999"
+        yield diagnostic("N3009", item.first.entry.key_span, message, hint)
 
 
 def _unwritten(item: KinematicSet, fault: Fault) -> str:

@@ -12,11 +12,8 @@ from ncscope.channel.draft import Draft
 from ncscope.channel.selection import evaluate_id, step_of
 from ncscope.channel.state import PROGRAM_STEP
 from ncscope.coordinates import ActiveKinematics
-from ncscope.kinematics.building import FIRST_ID, LAST_ID, type_of
+from ncscope.kinematics.building import can_be_pcs, type_of
 from ncscope.language import tree
-
-READY_MADE = frozenset({212})
-"""PCS transformations of the control itself; none is modelled, so selecting one is refused."""
 
 
 def select(draft: Draft, command: tree.HashCommand) -> None:
@@ -39,7 +36,7 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
         return
     id = state.kinematics.program_id
     parameters = state.kinematics.sets(PROGRAM_STEP).get(id)
-    if parameters is not None and not _possible(type_of(parameters)):
+    if parameters is not None and not can_be_pcs(type_of(parameters)):
         what = f"type {type_of(parameters)} (trafo_pcs with id {id}) is no PCS transformation"
         draft.fail("22287", command.span, what, "PCS transformations have types 500 to 999")
     model = step_of(draft, command.span, PROGRAM_STEP, id)
@@ -51,11 +48,6 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
 def off(draft: Draft, command: tree.HashCommand) -> None:
     """#TRAFO PCS OFF: the axes stay where they are."""
     draft.set_coordinates(replace(draft.state.coordinates, program_step=None), command.span)
-
-
-def _possible(type: int) -> bool:
-    """Whether the control has a PCS transformation of this type, here or of its own."""
-    return type in READY_MADE or FIRST_ID <= type <= LAST_ID
 
 
 def _preselect(draft: Draft, command: tree.HashCommand, id: int) -> None:
