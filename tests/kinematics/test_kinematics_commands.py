@@ -383,6 +383,8 @@ def test_point_to_point_moves_the_axes_straight(fields):
         ("#TRAFO ON\n#PTP ON\n#CS ON [1,2,3]", "21550"),
         ("#TRAFO ON\n#CS ON [1,2,3]\n#PTP ON\n#CS OFF", "21529"),
         ("#TRAFO ON\n#PTP ON\n#MCS ON", "21531"),
+        ("#TRAFO ON\n#PTP ON\nG41", "21525"),
+        ("#TRAFO ON\nG42\n#PTP ON", "21525"),
         ("#TRAFO ON\n#PTP ON\nG02 F1000 X10 I5", "21530"),
         ("#TRAFO ON\nG02 F1000 X10 I5\n#PTP ON\nX20 I5", "21530"),
         ("#TRAFO ON\n#PTP ON\nG01 F1000 X10\nG302 I2\nY10", "21530"),

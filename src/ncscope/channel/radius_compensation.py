@@ -19,6 +19,7 @@ FORBIDDEN = {
     "PSET": "20608",
     "PRESET": "20608",
     "TLC": "20671",
+    "PTP": "21525",
     "CS": "20802",
     "ACS": "20802",
     "BCS": "20802",
@@ -38,6 +39,9 @@ def select(draft: Draft, words: Words) -> None:
     for number in (40, 41, 42):
         if number not in words.gfunctions:
             continue
+        if number != 40 and draft.state.coordinates.point_to_point:
+            what = f"G{number} is not allowed while #PTP is active"
+            draft.fail("21525", words.gfunctions[number].span, what, "write #PTP OFF before it")
         begins = number != 40 and not before
         draft.modal(compensation=0 if number == 40 else number, compensation_begins=begins)
         if number not in (40, before):
