@@ -50,6 +50,7 @@ CATALOGUE: dict[str, Entry] = {
     "21247": Entry("warning", "A transformation is still active at program end."),
     "21630": Entry("error", "The kinematic id is unknown."),
     "20662": Entry("error", "The kinematics has no rotary axis."),
+    "21314": Entry("error", "The position is singular, so it cannot be converted."),
     "21323": Entry("error", "The command needs an active transformation."),
     "292006": Entry("error", "The kinematics does not support this function."),
     "21525": Entry("error", "#PTP and the tool radius compensation exclude each other."),

@@ -88,6 +88,15 @@ def test_spellings_of_axes(form):
     assert first == second
 
 
+@pytest.mark.parametrize("command", ["WCS TO MCS", "MCS TO WCS"])
+def test_a_singular_position_has_no_unique_conversion(command):
+    """A tool along C: a complete transformation leaves C open (21314), under RTCP it is given."""
+    for rtcp, place, ids in ((0, "C30 A0", ["21314"]), (0, "C30 A1", []), (1, "C30 A0", [])):
+        text = f"V.G.KIN[91].RTCP={rtcp}\n#KIN ID [91]\n#{command} [X1 {place}]\nM30\n"
+        found = ncscope.run(machine("ca_head"), text).diagnostics
+        assert [d.id for d in found] == ids
+
+
 def test_inches():
     text = "#CS ADD [A] [25.4,0,0]\nG70\n#TRANSFORM [A] [MCS] [1,0,0]\n" + printed("TRANSFORM", "X")
     assert numbers(ncscope.run(machine("xyz"), text + "M30\n").check()) == [[2.0]]

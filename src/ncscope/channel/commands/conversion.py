@@ -26,10 +26,14 @@ from ncscope.channel.systems import require_main_axes, text_of
 from ncscope.channel.words import axis_values
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
+from ncscope.kinematics.pole import Pole
 from ncscope.kinematics.step import KinematicsError
+from ncscope.kinematics.universal import UniversalKinematics
 from ncscope.language import tree
 
 Values = dict[int, float]
+SINGULAR = 1e-5
+"""Degrees between tool and first rotary axis: a tenth of the resolution of the control."""
 _FORM = "write for example #TRANSFORM [PCS] [MCS] [10,20,30]"
 _JOINED = re.compile(r"([A-Z]\w*?)([-+]?(?:\d+\.?\d*|\.\d+))")
 
@@ -113,9 +117,11 @@ def wcs_to_mcs(draft: Draft, command: tree.HashCommand) -> None:
     try:
         values = with_kinematics.to_program(near, draft.state.position.program)
         values = _replaced(values, _given(draft, command))
-        result = without.to_program(with_kinematics.to_axes(values, near))
+        axes = with_kinematics.to_axes(values, near)
+        result = without.to_program(axes)
     except KinematicsError as error:
         draft.fail(error.id, command.span, error.message)
+    _refuse_singular(draft, command, with_kinematics, axes)
     _keep(draft, "MCS", result)
 
 
@@ -123,11 +129,27 @@ def mcs_to_wcs(draft: Draft, command: tree.HashCommand) -> None:
     """#MCS TO WCS [X1 Y2 C30]: the other way round."""
     without, with_kinematics = _both(draft, command)
     values = _replaced(draft.state.position.program, _given(draft, command))
+    axes = without.to_axes(values)
     try:
-        result = with_kinematics.to_program(without.to_axes(values), values)
+        result = with_kinematics.to_program(axes, values)
     except KinematicsError as error:
         draft.fail(error.id, command.span, error.message)
+    _refuse_singular(draft, command, with_kinematics, axes)
     _keep(draft, "WCS", result)
+
+
+def _refuse_singular(
+    draft: Draft, command: tree.HashCommand, chain: Coordinates, axes: Array
+) -> None:
+    """Fails where a complete transformation leaves one rotary axis open: motions keep its position,
+    a conversion has no unique result (21314)."""
+    model = None if chain.kinematics is None else chain.kinematics.model
+    if not isinstance(model, UniversalKinematics) or model.rtcp:
+        return
+    pole = Pole.of(model)
+    if pole is not None and pole.distance(axes[pole.second]) < SINGULAR:
+        what = f"the tool lies along axis {model.axis_names[pole.first]}, which leaves it open"
+        draft.fail("21314", command.span, what, "tilt the tool out of the singular direction")
 
 
 def _both(draft: Draft, command: tree.HashCommand) -> tuple[Coordinates, Coordinates]:
