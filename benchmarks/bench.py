@@ -41,6 +41,7 @@ def main() -> None:
         *_whole_processes(files, options),
         *_outputs(files, options),
         *_kernels(options),
+        *_limits(files, options),
         *_small(options),
         *_peers(files, options),
     ]
@@ -124,6 +125,15 @@ def _kernels(options: argparse.Namespace) -> list[Row]:
         else:
             rows.append((name.removesuffix(", us"), _range(values, 1), "us"))
     return rows
+
+
+def _limits(files: dict[str, Path], options: argparse.Namespace) -> list[Row]:
+    """Single stages beside what the machine can do at best."""
+    found = [_measure("limits", str(files["five_axis"])) for _ in range(options.runs)]
+    return [
+        (name.rsplit(", ", 1)[0], _range([f[name] for f in found]), name.rsplit(", ", 1)[1])
+        for name in found[0]
+    ]
 
 
 def _small(options: argparse.Namespace) -> list[Row]:

@@ -3,6 +3,7 @@
     python benchmarks/measure.py run MACHINE PROGRAM        text to PCS and ACS, first and later
     python benchmarks/measure.py output MACHINE PROGRAM FMT csv, jsonl or parquet of a run
     python benchmarks/measure.py kernels                    poses a second, one core
+    python benchmarks/measure.py limits PROGRAM             what the stages are to be held against
     python benchmarks/measure.py nc_to_dataframe PROGRAM    the peer of that name
 
 Seconds are wall and CPU time of the step itself; memory is the peak of the process in MB.
@@ -10,6 +11,7 @@ Seconds are wall and CPU time of the step itself; memory is the peak of the proc
 
 from __future__ import annotations
 
+import functools
 import json
 import resource
 import statistics
@@ -125,6 +127,74 @@ def kernels() -> dict[str, float]:
             kin.inverse(one, tool_length=50.0, near=near)
         found[f"{label} inverse of one pose, us"] = (time.perf_counter() - begin) / 5000 * 1e6
     return found
+
+
+def limits(program: str) -> dict[str, float]:
+    """What this machine can do at best, and what single stages reach of it.
+
+    Rates of the copy of a long array, of the search for control flow, of the scanner alone, and of
+    the compiled sine with its cosine.
+    """
+    import numpy as np
+
+    from ncscope import compilation
+    from ncscope.language.detection import needs_layout
+    from ncscope.language.scanner import Scanner
+
+    compilation.load()
+    source = ncscope_source(program)
+    data = np.array(source.data)
+    scanner = Scanner(data, ("X", "Y", "Z", "A", "C"))
+    start = int(np.flatnonzero(data[:1000] == 10)[3]) + 1
+    lines = 0
+
+    def scan() -> None:
+        nonlocal lines
+        at, lines = start, 0
+        while len(rows := scanner.scan(at, 1)):
+            at, lines = int(rows.stops[-1]), lines + len(rows)
+
+    copy, angles = np.empty_like(data), np.linspace(-180.0, 180.0, 1_000_000)
+    seconds = {}
+    for name, work in {
+        "copy": lambda: np.copyto(copy, data),
+        "search": lambda: needs_layout(source),
+        "scan": scan,
+        "sine": lambda: _all_sines()(angles),
+    }.items():
+        work()
+        seconds[name] = statistics.median(timed(work)["wall"] for _ in range(5))
+    size = len(data)
+    return {
+        "copy of an array, GB/s": size / seconds["copy"] / 1e9,
+        "search for control flow, GB/s": size / seconds["search"] / 1e9,
+        "scanner alone, GB/s": size / seconds["scan"] / 1e9,
+        "scanner alone, M lines/s": lines / seconds["scan"] / 1e6,
+        "sine and cosine, M pairs/s": len(angles) / seconds["sine"] / 1e6,
+    }
+
+
+def ncscope_source(program: str) -> Any:
+    import ncscope
+
+    return ncscope.load_program(program).source
+
+
+@functools.cache
+def _all_sines() -> Callable[[Any], float]:
+    from numba import njit
+
+    from ncscope.kinematics.kernels import sincos_deg
+
+    @njit(error_model="numpy")
+    def total(angles):
+        found = 0.0
+        for angle in angles:
+            s, c = sincos_deg(angle)
+            found += s + c
+        return found
+
+    return total
 
 
 def nc_to_dataframe(program: str) -> dict[str, Any]:

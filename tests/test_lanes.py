@@ -135,10 +135,30 @@ def test_lanes_agree_on_coordinate_systems(lines):
     assert_equal(FLAT, "\n".join(lines) + "\n")
 
 
-@pytest.mark.parametrize("cut", range(0, 75, 3))
+CUT = "N10 G1 X1.5 Y-2 F100\r\n\r\nN20 X3 A4\nN30 G91 X1\nN40 G90 Z-.5 C10.25\nM30\n"
+
+
+@pytest.mark.parametrize("cut", range(len(CUT)))
 def test_a_program_may_be_cut_anywhere(cut):
-    text = "N10 G1 X1.5 Y-2 F100\r\n\r\nN20 X3 A4\nN30 G91 X1\nN40 G90 Z-.5 C10.25\nM30\n"
-    assert_equal(FLAT, text[:cut])
+    assert_equal(FLAT, CUT[:cut])
+
+
+SLIP = st.tuples(
+    st.integers(0, 200),
+    st.integers(0, 1),
+    st.sampled_from(list(" \tXGNFE19.-+()\r;#$=[]_x\x00\xff")),
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(PLAIN, min_size=1, max_size=4), st.lists(SLIP, min_size=1, max_size=3))
+def test_lanes_agree_on_slips_of_a_finger(lines, slips):
+    """A character too many, or another one, anywhere in plain blocks."""
+    text = "G1 F100\n" + "\n".join(lines) + "\nM30\n"
+    for place, instead, char in slips:
+        at = place % len(text)
+        text = text[:at] + char + text[at + instead :]
+    assert_equal(FLAT, text)
 
 
 def test_plain_blocks_do_take_the_bulk_lane():
