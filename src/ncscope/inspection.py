@@ -332,7 +332,7 @@ def _pole(s: Stretch) -> Pole | None:
 
 def _swings(pole: Pole, s: Stretch, row: int) -> list[Swing]:
     """Runs of moves in which the first rotary axis turns far and the tool direction does not."""
-    moves = pole.turning_near(s.start, s.acs, NEAR_POLE, SMALLEST_SWING)
+    moves = pole.turning(s.start, s.acs, SMALLEST_SWING, NEAR_POLE, SWING_RATIO)
     if len(moves) == 0:
         return []
     start = np.where(moves[:, None] > 0, s.acs[moves - 1], s.start)

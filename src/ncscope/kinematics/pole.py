@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 Rows = NDArray[np.int64]
 
 _SMALLEST_NORMAL = 1e-12
+_ROUNDING_DEG = 1e-4
+_DEG_PER_RAD = 180.0 / math.pi
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,19 +68,21 @@ class Pole:
         cosine = middle + sway * np.cos(np.deg2rad(second - self.turning_point))
         return np.rad2deg(np.arccos(np.minimum(np.abs(cosine), 1.0)))
 
-    def turning_near(self, start: Array, axes: Array, near: float, turn: float) -> Rows:
-        """The moves (k,) that turn the first axis, and begin or end nearer than `near` degrees to
-        the singular direction, or turn it by `turn` degrees or more.
+    def turning(self, start: Array, axes: Array, turn: float, near: float, ratio: float) -> Rows:
+        """The moves (k,) that turn the first axis by `turn` degrees or more, or begin or end
+        nearer than `near` degrees to the singular direction and may turn it `ratio` times more
+        than they turn the tool.
 
-        start: (n,) axis values before the first move. axes: (m, n) at the end of each.
+        start: (n,) axis values before the first move. axes: (m, n) at the end of each. Where the
+        tool turns at least as far as it comes nearer to the axis, only that is compared.
         """
         middle, sway = self._cosine
         found = np.zeros(len(axes), np.bool_)
-        _turning_near(
+        _turning(
             np.require(start, requirements=["C", "W"]),
             np.require(axes, requirements=["C", "W"]),
             (self.first, self.second),
-            (self.turning_point, middle, sway, math.cos(math.radians(near)), turn),
+            (self.turning_point, middle, sway, turn, math.cos(math.radians(near)), ratio),
             not self.model.rtcp,
             found,
         )
@@ -132,16 +136,26 @@ class Pole:
 
 
 @compiled
-def _turning_near(start, axes, columns, bounds, short_way, found):
-    """Marks the moves of `Pole.turning_near`; short_way: a turn is never more than 180 degrees."""
+def _turning(start, axes, columns, bounds, short_way, found):
+    """Marks the moves of `Pole.turning`; short_way: a turn is never more than 180 degrees."""
     first, second = columns
-    turning_point, middle, sway, near, far = bounds
+    turning_point, middle, sway, far, near, ratio = bounds
     before = start[first]
-    was_near = abs(middle + sway * sincos_deg(start[second] - turning_point)[1]) > near
+    cosine_before = middle + sway * sincos_deg(start[second] - turning_point)[1]
     for row in range(axes.shape[0]):
         turn = axes[row, first] - before
         if short_way:
             turn -= 360.0 * np.rint(turn / 360.0)
-        is_near = abs(middle + sway * sincos_deg(axes[row, second] - turning_point)[1]) > near
-        found[row] = turn != 0.0 and (is_near or was_near or abs(turn) >= far)
-        before, was_near = axes[row, first], is_near
+        turn = abs(turn)
+        cosine = middle + sway * sincos_deg(axes[row, second] - turning_point)[1]
+        found[row] = turn >= far
+        if turn > 0.0 and turn < far and max(abs(cosine), abs(cosine_before)) > near:
+            nearer = _angle(cosine) - _angle(cosine_before)
+            found[row] = turn + _ROUNDING_DEG >= ratio * abs(nearer)
+        before, cosine_before = axes[row, first], cosine
+
+
+@compiled
+def _angle(cosine):
+    """Degrees; good to 1e-6 where the cosine is 1."""
+    return math.acos(min(max(cosine, -1.0), 1.0)) * _DEG_PER_RAD
