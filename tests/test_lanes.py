@@ -118,6 +118,35 @@ def test_lanes_agree_under_a_kinematics_and_a_block_limit(lines, limit, kinemati
     assert_equal(CA_HEAD, text, max_blocks=limit and limit + 5)
 
 
+MODULO_WORD = st.sampled_from(
+    ["C350", "C-10", "C-350", "C+10", "C-0", "C 0", "C725", "C-.5", "C - 5", "C359.9999999999",
+     "G91 C-700", "G91 C350", "G90 C180", "C-180", "C180.5", "X5", "A20", "G1 F100"]
+)  # fmt: skip
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.lists(st.one_of(MODULO_WORD, MODULO_WORD, PLAIN), min_size=1, max_size=12),
+    st.sampled_from([(0.0, 360.0), (-180.0, 180.0)]),
+    st.booleans(),
+    st.sampled_from(["", "#KIN ID [91]\n#TRAFO ON\n", COMPLETE + "#KIN ID [91]\n#TRAFO ON\n"]),
+    st.sampled_from([None, 0.5]),
+)
+def test_lanes_agree_on_modulo_axes(lines, turns, shortest, kinematics, sample):
+    axes = tuple(replace(a, modulo_range=turns) if a.name == "C" else a for a in CA_HEAD.axes)
+    settings = replace(CA_HEAD.settings, modulo_shortest=shortest)
+    machine = replace(CA_HEAD, axes=axes, settings=settings)
+    text = kinematics + "G90 F500 G1\n" + "\n".join(lines) + "\nM30\n"
+    assert_equal(machine, text, sample=sample)
+
+
+def test_modulo_axes_do_take_the_bulk_lane():
+    text = "G1 F100 C0\n" + "".join(f"N{i} C{i * 7 % 360}\n" for i in range(200)) + "M30\n"
+    result = ncscope.run(TURNING, text, Options(bulk=True))
+    assert len(result.stretches) == 1
+    assert result.pcs[200, 3] == 199 * 7 % 360
+
+
 def test_free_axes_continue_from_row_to_row_in_both_lanes():
     """A vertical tool leaves C free: it keeps its place. Two rows of three are vertical."""
     rows = "".join(f"X{i} C{20 * i} A{0 if i % 3 else 10 + i}\n" for i in range(60))

@@ -271,8 +271,8 @@ class _Loop:
         from ncscope.language.scanner import Scanner
 
         if self.scanner is None:
-            names = (a.name if a.modulo_range is None else "" for a in self.state.axes)
-            self.scanner = Scanner(self.source.data, tuple(names))
+            turning = [axis for axis, _, _ in self.state.coordinates.modulo.ranges]
+            self.scanner = Scanner(self.source.data, self.state.axis_names, turning)
         line = self.source.position(reader.at)[0]
         while True:
             rows = self.scanner.scan(reader.at, line)
@@ -280,10 +280,11 @@ class _Loop:
             if min(len(rows), left) == 0:
                 return
             start = self.state.position.program
-            self.state, stretch = advance(self.state, rows, self.source.name, left)
+            shortest = self.machine.settings.modulo_shortest
+            self.state, stretch, ways = advance(self.state, rows, self.source.name, left, shortest)
             if stretch is None:
                 return
-            self.recorder.extend(stretch, start)
+            self.recorder.extend(stretch, start, ways)
             self.count += len(stretch)
             reader.skip_to(int(rows.stops[len(stretch) - 1]))
             line = int(stretch.line[-1]) + 1

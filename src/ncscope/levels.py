@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ncscope.compilation import compiled
 from ncscope.contour import NO_CONTOUR, Contour
 from ncscope.frames import Array, Frame
 
@@ -108,12 +109,10 @@ class ModuloAxes:
         wanted = [r for r in self.ranges if r[0] not in but]
         if not wanted:
             return values
-        result = np.array(values, dtype=float)
+        result = np.array(values, dtype=float, order="C")
+        rows = result.reshape(-1, result.shape[-1])
         for column, low, high in wanted:
-            own = result[..., column]
-            turned = low + np.mod(own - low, high - low)
-            turned = np.where(turned >= high, low, turned)
-            result[..., column] = np.where((own >= low) & (own < high), own, turned)
+            _wrap_column(rows, column, low, high)
         return result
 
     def whole_turns(self, difference: Array) -> Array:
@@ -123,6 +122,21 @@ class ModuloAxes:
             turn = high - low
             result[..., column] = turn * np.round(difference[..., column] / turn)
         return result
+
+
+@compiled
+def _wrap_column(rows, column, low, high):
+    for row in range(rows.shape[0]):
+        rows[row, column] = in_range(rows[row, column], low, high)
+
+
+@compiled
+def in_range(angle, low, high):
+    """The angle in [low, high); one that is there stays as it is, to the last bit."""
+    if low <= angle < high:
+        return angle
+    turned = low + (angle - low) % (high - low)
+    return low if turned >= high else turned
 
 
 NO_MODULO = ModuloAxes()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -23,6 +24,8 @@ from ncscope.motion.paths import Paths
 from ncscope.motion.sampling import needs_points, sample
 from ncscope.motion.turning import TurningPoints, turning_points
 from ncscope.trajectory import NO_BLOCK, Stretch
+
+NO_WAYS: Mapping[int, Array] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -125,10 +128,11 @@ class Recorder:
         self._moves.append(move)
         self.moves += 1
 
-    def extend(self, stretch: Stretch, start: Array) -> None:
-        """Many straight moves at once; `start` are the programmed values before them."""
+    def extend(self, stretch: Stretch, start: Array, ways: Mapping[int, Array] = NO_WAYS) -> None:
+        """Many straight moves at once; `start` are the programmed values before them, `ways` as
+        in `_Part`."""
         self._close()
-        self._push(_Part(stretch, start))
+        self._push(_Part(stretch, start, ways=ways))
         self.moves += len(stretch)
 
     def last(self) -> tuple[Move, Coordinates] | None:
@@ -225,7 +229,8 @@ class Recorder:
         points = sample(s.coordinates, paths, s.acs, s.start, self._tolerance)
         for index in points.coarse:
             line = int(s.line[index])
-            span = spans[index] if spans else _line_span(self._source, s.file, line)
+            source = spans[index].source if spans else self._source
+            span = _line_span(source, s.file, line)
             self.coarse.setdefault((s.file, line), span)
         row = points.row
         return replace(
@@ -254,8 +259,9 @@ def with_bulges(stretch: Stretch, axes: tuple[Axis, ...]) -> Stretch:
 
 
 def _line_span(source: Source, file: str, line: int) -> Span | None:
-    """The line of a plain block; None in the file of a subprogram."""
+    """The line of a block without its indentation; None in a file other than the source."""
     if file != source.name:
         return None
+    text = source.line_text(line)
     start = source.line_start(line)
-    return Span(source, start, start + len(source.line_text(line)))
+    return Span(source, start + len(text) - len(text.lstrip()), start + len(text))

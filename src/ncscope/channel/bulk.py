@@ -7,23 +7,37 @@ lane would say something about is cut off here and left to it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
+from ncscope.channel.modulo import way_to
 from ncscope.channel.state import Position, State
 from ncscope.compilation import compiled
 from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
 from ncscope.language.scanner import PlainRows
+from ncscope.levels import in_range
 from ncscope.motion import MOTIONS
+from ncscope.recording import NO_WAYS
 from ncscope.trajectory import Stretch
 
 
-def advance(state: State, rows: PlainRows, file: str, limit: int) -> tuple[State, Stretch | None]:
-    """The state after the rows and their moves; None when the first row is for the step lane.
+class Advance(NamedTuple):
+    """The state after some rows and their moves; no stretch when the first row is for the step
+    lane. ways: row -> where the path leads before modulo axes are wrapped, where that differs."""
 
-    limit: most rows to take. The length of the stretch says how many rows were taken.
+    state: State
+    stretch: Stretch | None = None
+    ways: Mapping[int, Array] = NO_WAYS
+
+
+def advance(state: State, rows: PlainRows, file: str, limit: int, shortest: bool) -> Advance:
+    """Rows of plain blocks, at most `limit`; the stretch says how many were taken.
+
+    shortest: modulo axes take the short way whatever their sign says (P-CHAN-00346).
     """
     n = min(len(rows), limit)
     motion = _filled_codes(rows.motion[:n], MOTIONS.index(state.modal.motion))
@@ -31,12 +45,11 @@ def advance(state: State, rows: PlainRows, file: str, limit: int) -> tuple[State
     feed = _filled_feed(state, rows.feed[:n])
     n = _before_warning(state, motion, feed, n)
     if n == 0:
-        return state, None
-    program = np.empty((n, len(state.axes)))
-    _fill_program(rows.values[:n], absolute[:n], _factors(state), state.position.program, program)
+        return Advance(state)
+    program, ways = _programmed(state, rows.values[:n], absolute[:n], shortest)
     axes, n = _axes(state, program)
     if n == 0:
-        return state, None
+        return Advance(state)
     stretch = Stretch(
         state.coordinates,
         state.axis_names,
@@ -49,7 +62,27 @@ def advance(state: State, rows: PlainRows, file: str, limit: int) -> tuple[State
         axes[:n],
         state.position.axes,
     )
-    return _state_after(state, stretch, bool(absolute[n - 1])), stretch
+    turned = np.flatnonzero((ways[:n] != program[:n]).any(axis=1)) if ways is not program else ()
+    return Advance(
+        _state_after(state, stretch, bool(absolute[n - 1])),
+        stretch,
+        {int(row): ways[row] for row in turned},
+    )
+
+
+def _programmed(state: State, values: Array, absolute, shortest: bool) -> tuple[Array, Array]:
+    """Programmed values (m, n), and the same before modulo axes are wrapped."""
+    program = np.empty((len(values), len(state.axes)))
+    active = state.coordinates.kinematics
+    directions = () if active is None else active.model.orientation
+    ranges = np.full((len(state.axes), 2), np.nan)
+    for axis, low, high in state.coordinates.modulo.ranges:
+        if axis not in directions:
+            ranges[axis] = low, high
+    ways = program if np.isnan(ranges).all() else np.empty_like(program)
+    start = state.position.program
+    _fill_program(values, absolute, _factors(state), start, ranges, shortest, program, ways)
+    return program, ways
 
 
 def _factors(state: State) -> Array:
@@ -121,12 +154,27 @@ def _fill_feed(feed, factor, before, filled):
 
 
 @compiled
-def _fill_program(values, absolute, factors, start, program):
-    """Programmed absolute values: words as they are under G90, added up under G91."""
+def _fill_program(values, absolute, factors, start, ranges, shortest, program, ways):
+    """Programmed absolute values: words as they are under G90, added up under G91.
+
+    ranges (n, 2): of modulo axes, NaN for others. A minus on a modulo axis is its turning
+    direction under G90 (see `modulo.travel`).
+    """
     for j in range(values.shape[1]):
         at = start[j]
+        low, high = ranges[j]
         for i in range(values.shape[0]):
             if not np.isnan(values[i, j]):
                 length = values[i, j] * factors[j]
-                at = length if absolute[i] else at + length
+                if not absolute[i]:
+                    at += length
+                elif np.isnan(low):
+                    at = length
+                elif shortest or not np.signbit(length):
+                    at += way_to(length, at, high - low, 0)
+                else:
+                    at += way_to(-length, at, high - low, -1)
+            ways[i, j] = at
+            if not np.isnan(low):
+                at = in_range(at, low, high)
             program[i, j] = at

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number
+from ncscope.compilation import compiled
 from ncscope.language import tree
 from ncscope.levels import ModuloAxes
 from ncscope.machine import Axis
@@ -61,16 +62,24 @@ def travel(draft: Draft, words: Words, axis: int) -> float | None:
             what = "a relative word of a modulo axis has a turning direction and a negative way"
             draft.fail("20958", span, what, "write one sign: it is the direction of the way")
         return value
-    turn = limits[1] - limits[0]
     if draft.machine.settings.modulo_shortest:
         sign, amount = "", value
-    way = (amount - float(state.position.program[axis])) % turn
-    if turn - way < SAME_ANGLE:
-        way = 0.0
-    if sign == "-":
-        return way - turn if way > 0.0 else 0.0
-    return way - turn if not sign and way > turn / 2 else way
+    at = float(state.position.program[axis])
+    return way_to(amount, at, limits[1] - limits[0], SIGNS[sign])
 
 
 SAME_ANGLE = 1e-9
 """Degrees; a way that is so much shorter than a full turn is none: rounding."""
+SIGNS = {"": 0, "+": 1, "-": -1}
+
+
+@compiled
+def way_to(amount, at, turn, sign):
+    """Degrees from `at` to `amount`, both without whole turns: in the direction of the sign, or
+    with sign 0 the short way."""
+    way = (amount - at) % turn
+    if turn - way < SAME_ANGLE:
+        way = 0.0
+    if sign < 0:
+        return way - turn if way > 0.0 else 0.0
+    return way - turn if sign == 0 and way > turn / 2 else way

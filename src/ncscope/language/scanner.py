@@ -9,6 +9,7 @@ twice: what could be wrong is not plain.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -52,10 +53,16 @@ class PlainRows:
 
 
 class Scanner:
-    """Scans one program for one set of axes; its buffers serve every call."""
+    """Scans one program for one set of axes; its buffers serve every call.
 
-    def __init__(self, data: NDArray[np.uint8], axis_names: tuple[str, ...]) -> None:
+    signed: axes on which a plus is more than nothing; a word with one is left to the parser.
+    """
+
+    def __init__(
+        self, data: NDArray[np.uint8], axis_names: tuple[str, ...], signed: Iterable[int] = ()
+    ) -> None:
         self.data = data
+        self._signed = np.isin(np.arange(len(axis_names)), list(signed))
         self._size = np.uint64(_whole_lines(data))
         self.columns = np.full(256, _UNKNOWN, dtype=np.int64)
         for index, name in enumerate(axis_names):
@@ -72,8 +79,8 @@ class Scanner:
     def scan(self, offset: int, line: int) -> PlainRows:
         """The plain blocks from `offset`, which begins line `line`, up to CHUNK rows."""
         count = _scan(
-            self.data, self._size, np.uint64(offset), line, self.columns, _POWERS, self._line,
-            self._block, self._codes, self._feed, self._values, self._stops,
+            self.data, self._size, np.uint64(offset), line, self.columns, self._signed, _POWERS,
+            self._line, self._block, self._codes, self._feed, self._values, self._stops,
         )  # fmt: skip
         return PlainRows(
             self._line[:count],
@@ -96,13 +103,17 @@ def _whole_lines(data):
 
 
 @compiled
-def _scan(data, size, at, line, columns, powers, lines, blocks, codes, feeds, values, stops):
+def _scan(
+    data, size, at, line, columns, signed, powers, lines, blocks, codes, feeds, values, stops
+):
     """Rows read; a blank line between plain blocks belongs to the run. Each line before `size`
     ends with a line feed, so that no loop below it needs another end."""
     count = _NONE
     while at < size and count < len(lines):
         start = at
-        at, axes = _read_line(data, at, columns, powers, blocks, codes, feeds, values, count)
+        at, axes = _read_line(
+            data, at, columns, signed, powers, blocks, codes, feeds, values, count
+        )
         if at == _NONE:
             break
         if axes:
@@ -122,7 +133,7 @@ def _is_blank(data, at):
 
 
 @compiled
-def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
+def _read_line(data, at, columns, signed, powers, blocks, codes, feeds, values, row):
     """Offset behind the line and its number of axis words; offset 0 when it is not plain."""
     longest = at + _LONGEST
     block, motion, absolute, feed = -1, -1, -1, np.nan
@@ -136,7 +147,7 @@ def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
             continue
         if char == 10:
             break
-        number, decimals, whole, negative, at = _number(data, at + _ONE)
+        number, decimals, whole, sign, at = _number(data, at + _ONE)
         if at == _NONE or at > longest:
             return _NONE, 0
         if char == 78:  # N
@@ -152,7 +163,7 @@ def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
                 return _NONE, 0
             absolute = 91 - number
         elif char == 70:  # F
-            if negative or number == 0 or not np.isnan(feed):
+            if sign < 0 or number == 0 or not np.isnan(feed):
                 return _NONE, 0
             feed = number / powers[decimals]
         else:
@@ -160,10 +171,10 @@ def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
             if known < 0:
                 return _NONE, 0
             column = np.uint64(known)
-            if not np.isnan(values[row, column]):
+            if not np.isnan(values[row, column]) or (sign > 0 and signed[column]):
                 return _NONE, 0
             value = number / powers[decimals]
-            values[row, column] = -value if negative else value
+            values[row, column] = -value if sign < 0 else value
             axes += 1
         words += 1
     blocks[row], feeds[row], codes[row, 0], codes[row, 1] = block, feed, motion, absolute
@@ -173,13 +184,16 @@ def _read_line(data, at, columns, powers, blocks, codes, feeds, values, row):
 @compiled
 def _number(data, at):
     """Digits at `at` after blanks and one sign: their value without the point, decimals, whether
-    there is neither sign nor point, whether it is negative, and the offset behind; offset 0 when
+    there is neither sign nor point, the sign (-1, 0, 1), and the offset behind; offset 0 when
     this is no literal or too long to be exact."""
     while data[at] == 32 or data[at] == 9:
         at += _ONE
-    negative = data[at] == 45
-    signed = negative or data[at] == 43
-    if signed:
+    sign = 0
+    if data[at] == 45:
+        sign = -1
+    elif data[at] == 43:
+        sign = 1
+    if sign != 0:
         at += _ONE
     number, first = _NONE, at
     digit = data[at] - _ZERO
@@ -201,7 +215,7 @@ def _number(data, at):
         digits += decimals
     if digits == _NONE or digits > _DIGITS or not _ends_number(data[at]):
         at = _NONE
-    return np.int64(number), decimals, not (signed or point), negative, at
+    return np.int64(number), decimals, sign == 0 and not point, sign, at
 
 
 @compiled
