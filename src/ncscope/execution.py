@@ -6,7 +6,7 @@ touches files: messages are values of the result.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -14,9 +14,10 @@ import numpy as np
 
 from ncscope.channel.block import Step, execute
 from ncscope.channel.draft import Message
-from ncscope.channel.flow import Walker, too_many
-from ncscope.channel.given import GivenRows
-from ncscope.channel.loop_lane import LoopLane, Visited
+from ncscope.channel.endless import Watch, too_long
+from ncscope.channel.flow import Walker
+from ncscope.channel.given import unused
+from ncscope.channel.loop_lane import MOST_ENTRIES, LoopLane, Visited
 from ncscope.channel.start import start_state, switch_on, with_stack
 from ncscope.channel.state import CallRequest, Return, Running, State
 from ncscope.channel.subprograms import Passage, call, leave, nesting_warning, return_in_main
@@ -33,10 +34,6 @@ from ncscope.transitions import Transitions
 
 if TYPE_CHECKING:
     from ncscope.language.scanner import Scanner
-
-MOST_BLOCKS = 10_000_000
-"""Executed blocks after which a program with loops ends, where no limit is given."""
-
 
 BULK_FROM = 70_000
 """Characters from which the compiled bulk lane is worth the time of its loading."""
@@ -128,7 +125,7 @@ def _run_files(loop: _Loop, calls: tuple[CallRequest, ...]) -> None:
     loop.accept(call(walker, loop.state, calls))
     _drive(loop, walker)
     loop.ended = loop.ended or ended
-    loop.blamed = None
+    loop.watch = None
 
 
 def _walk(loop: _Loop) -> None:
@@ -147,6 +144,7 @@ def _walk(loop: _Loop) -> None:
 def _drive(loop: _Loop, walker: Walker) -> None:
     """Block by block until the outermost level of the walker ends."""
     entry = None
+    loop.watch = watch = Watch(walker, not loop.options.max_blocks)
     while not loop.over:
         entry = walker.entry
         if entry is None:
@@ -154,8 +152,9 @@ def _drive(loop: _Loop, walker: Walker) -> None:
                 break
             loop.accept(leave(walker, loop.state))
             continue
-        loop.blamed = walker.blamed
+        table, at, count = walker.layout, walker.at, loop.count
         if loop.take_loop(walker):
+            loop.add_one(watch.look(table, at, loop.state, loop.count - count))
             loop.report(loop.reached)
             continue
         if entry.keyword and not entry.block.words:
@@ -164,6 +163,7 @@ def _drive(loop: _Loop, walker: Walker) -> None:
             loop.take(entry.block, entry.found)
         if not loop.log.stop:
             _go_on(loop, walker)
+            loop.add_one(watch.look(table, at, loop.state))
         in_main = not walker.calls and walker.layout.source is loop.source
         loop.report(entry.block.span.start if in_main else loop.reached)
     if loop.ended and walker.calls and entry is not None:
@@ -217,7 +217,7 @@ class _Loop:
         self.ended = False
         self.returned: Return | None = None
         self.calls: tuple[CallRequest, ...] = ()
-        self.blamed: Callable[[], Span | None] | None = None
+        self.watch: Watch | None = None
         self.scanner: Scanner | None = None
         self.loops = LoopLane() if options.bulk is not False else None
         long = len(source) >= BULK_FROM
@@ -254,6 +254,11 @@ class _Loop:
     def add(self, found: Iterable[Diagnostic]) -> None:
         """Diagnostics of the run, in order."""
         for item in found:
+            self.log.add(item, self.options.strict)
+
+    def add_one(self, item: Diagnostic | None) -> None:
+        """A diagnostic, where there is one."""
+        if item is not None and not self.over:
             self.log.add(item, self.options.strict)
 
     def accept(self, passage: Passage) -> None:
@@ -310,7 +315,7 @@ class _Loop:
         """Blocks that are executed again and again, in the loop lane; whether there were any."""
         if self.transitions.waiting is not None:
             return False
-        limit = (self.options.max_blocks or MOST_BLOCKS) - self.count
+        limit = self.options.max_blocks - self.count if self.options.max_blocks else MOST_ENTRIES
         piece = self.loops.advance(walker, self.state, limit) if self.loops else None
         if piece is None:
             return False
@@ -332,10 +337,10 @@ class _Loop:
 
     def _counted(self, span: Span) -> bool:
         self.count += 1
-        limit = self.options.max_blocks or (MOST_BLOCKS if self.blamed is not None else 0)
+        limit = self.options.max_blocks
         if limit and self.count > limit:
-            blamed = self.blamed() if self.blamed is not None else None
-            self.add([too_many(limit, span, blamed)])
+            found = self.watch.too_many(limit, True) if self.watch else too_long(limit, span)
+            self.add([found])
             return False
         return True
 
@@ -343,7 +348,7 @@ class _Loop:
         if not self.over:
             self.log.add(_no_end(self.source), self.options.strict)
         if not self.log.stop:
-            self.add([*_unused(self.state.probe), *_unused(self.state.manual)])
+            self.add([*unused(self.state.probe), *unused(self.state.manual)])
             self.add(self.transitions.finish())
         self.recorder.finish()
         self.add(self.recorder.complaints())
@@ -381,16 +386,6 @@ def _record(
             state.position.axes,
         )
     return found
-
-
-def _unused(given: GivenRows | None) -> list[Diagnostic]:
-    """Rows that nobody asked for: the table was made for another program."""
-    row = given.next if given is not None else None
-    if given is None or row is None:
-        return []
-    left = len(given.rows) - given.used
-    message = f"{left} of {len(given.rows)} rows of {given.name} were not used"
-    return [diagnostic("N2044", row.span, message, "the first of them stands here")]
 
 
 def _no_end(source: Source) -> Diagnostic:

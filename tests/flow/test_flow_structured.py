@@ -168,12 +168,6 @@ def test_endless_loop_is_named_not_the_finite_one_inside():
     assert result.diagnostics[-1].id == "N4001" and "line 1 " in result.diagnostics[-1].message
 
 
-def test_program_with_loops_has_a_limit_of_its_own(monkeypatch):
-    monkeypatch.setattr("ncscope.execution.MOST_BLOCKS", 100)
-    result = go("$DO\n$ENDDO 1\nM30\n")
-    assert ids(result)[0][0] == "N4001" and "line 1 " in result.diagnostics[-1].message
-
-
 def test_condition_that_fails_is_marked():
     (error,) = go("$IF 1/0\nX1\n$ENDIF\nM30\n").diagnostics
     assert (error.id, error.line) == ("20396", 1)

@@ -88,7 +88,9 @@ def _block_number(draft: Draft, block: tree.Block) -> int | None:
 def _execute(draft: Draft, block: tree.Block) -> None:
     """The order of effects inside a block (TF5200 programming manual)."""
     # 1. Block number; what is not supported is refused by name.
-    draft.state = replace(draft.state, block=_block_number(draft, block))
+    number = _block_number(draft, block)
+    if number != draft.state.block:
+        draft.state = replace(draft.state, block=number)
     _refuse_axis_commands(draft, block)
     # 2. # commands and declarations.
     for declaration in block.declarations:

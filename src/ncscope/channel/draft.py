@@ -115,7 +115,9 @@ class Draft:
     # --- changes -------------------------------------------------------------------------------
 
     def modal(self, **changes: Any) -> None:
-        self.state = replace(self.state, modal=replace(self.state.modal, **changes))
+        modes = self.state.modal
+        if any(getattr(modes, name) != value for name, value in changes.items()):
+            self.state = replace(self.state, modal=replace(modes, **changes))
 
     @property
     def modes(self) -> Modal:

@@ -7,6 +7,7 @@ Source: TF5200 programming manual The two limits of $FOR are evaluated before ev
 
 from __future__ import annotations
 
+import math
 import re
 
 from ncscope.channel.draft import BlockError, Draft
@@ -36,7 +37,8 @@ class Walker:
     """The place in the program, from block to block.
 
     `at` is the index of the next block. `passes` counts the passes of each loop and backward jump,
-    by file and index, for the message about a program that does not end.
+    by file and index. `astray` counts those that need not come to an end: all but the passes of a
+    $FOR that brought its counter nearer to the last value.
     """
 
     def __init__(
@@ -50,6 +52,8 @@ class Walker:
         self.layouts: dict[str, Layout] = {main.source.name: main}
         self.passes: dict[tuple[str, int], int] = {}
         self.complained: set[tuple[str, int]] = set()
+        self.astray = 0
+        self._counters: dict[tuple[str, int], tuple[int, float]] = {}
 
     @property
     def entry(self) -> Entry | None:
@@ -194,26 +198,27 @@ class Walker:
         control = _control(entries[statement.first])
         if statement.keyword == "FOR":
             write_variable(draft, _assignment(control, "+=", control.values[2]))
+            self._count(draft, statement, control)
+        else:
+            self.astray += 1
         if statement.keyword in ("DO", "REPEAT"):
             ending = _control(entries[self.at])
             if _true(draft, ending.values[0]) != (statement.keyword == "DO"):
                 return self.at + 1
         return self._pass(draft, statement, control)
 
-    def blamed(self) -> Span | None:
-        """The loop that most likely has no end: of those around, the one with most passes."""
-        at = min(self.at, self.level[1] - 1)
-        name = self.layout.source.name
-        around = [s.first for s in self.layout.around[at] if s.keyword in LOOPS]
-        own = self.layout.statements.get(at)
-        if own is not None and own.keyword in LOOPS:
-            around.append(own.first)
-        counts = {i: self.passes.get((name, i), 0) for i in around}
-        if not counts:  # a loop of jumps
-            counts = {i: n for (file, i), n in self.passes.items() if file == name}
-        if not counts:
-            return None
-        return self.layout.entries[max(counts, key=lambda i: counts[i])].span
+    def _count(self, draft: Draft, statement: Statement, control: tree.Control) -> None:
+        """Notes a pass of $FOR that did not bring it nearer to its end.
+
+        The loop began anew where it has no more passes than before.
+        """
+        assert control.target is not None
+        key = self.layout.source.name, statement.first
+        step, count = evaluate_number(draft, control.values[2]), self.passes.get(key, 0)
+        now = math.copysign(1.0, step) * evaluate_number(draft, control.target)
+        passes, before = self._counters.get(key, (count, now))
+        self.astray += step == 0 or (passes < count and now <= before)
+        self._counters[key] = count, now
 
     # --- jumps ---------------------------------------------------------------------------------
 
@@ -231,6 +236,7 @@ class Walker:
         if target <= self.at:
             key = self.layout.source.name, self.at
             self.passes[key] = self.passes.get(key, 0) + 1
+            self.astray += 1
         return target
 
     def find_label(self, draft: Draft, label: str, span: Span) -> int:
@@ -298,18 +304,3 @@ def _label(draft: Draft, control: tree.Control) -> str:
         bare = not name.startswith("[") and not _NUMBERED.fullmatch(name)
         return f"[{name}]" if bare else name
     return f"N{round(evaluate_number(draft, control.values[-1]))}"
-
-
-def too_many(limit: int, span: Span, loop: Span | None) -> Diagnostic:
-    """N4001, with the loop that goes on."""
-    if loop is not None:
-        message = f"more than {limit} blocks were executed: the loop in line {loop.line} goes on"
-        notes = (("the loop", loop),)
-        hint = "check how the loop ends, or raise --max-blocks"
-        return diagnostic("N4001", span, message, hint, notes=notes)
-    return diagnostic(
-        "N4001",
-        span,
-        f"the program has more than {limit} blocks",
-        "raise --max-blocks, or leave it out for no limit",
-    )

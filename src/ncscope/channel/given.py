@@ -110,3 +110,13 @@ def _row(line: Span, mark: str, names: list[Span]) -> tuple[GivenRow, list[Diagn
             found.append(diagnostic("N4010", cell, f"{text!r} is not a number", hint))
         values[name.text], places[name.text] = value, cell
     return GivenRow(values, places, line), found
+
+
+def unused(given: GivenRows | None) -> list[Diagnostic]:
+    """Rows that nobody asked for: the table was made for another program."""
+    row = given.next if given is not None else None
+    if given is None or row is None:
+        return []
+    left = len(given.rows) - given.used
+    message = f"{left} of {len(given.rows)} rows of {given.name} were not used"
+    return [diagnostic("N2044", row.span, message, "the first of them stands here")]

@@ -12,6 +12,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from ncscope.channel.draft import BlockError, Draft
+from ncscope.channel.layered import with_value
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language import tree
 from ncscope.language.failures import used_at
@@ -27,7 +28,7 @@ def define(draft: Draft, word: tree.MacroDefinition) -> None:
     if not word.name:
         draft.fail("20619", word.span, "a macro needs a name")
     _check_length(draft, word.name, word.span)
-    macros = {**draft.state.macros, word.name: word.text}
+    macros = with_value(draft.state.macros, word.name, word.text)
     draft.state = replace(draft.state, macros=macros)
 
 

@@ -11,6 +11,7 @@ import math
 from dataclasses import replace
 
 from ncscope.channel.draft import Draft
+from ncscope.channel.layered import with_value, without
 from ncscope.channel.state import Stored
 from ncscope.diagnostics import Span
 from ncscope.language import tree
@@ -183,9 +184,9 @@ def delete(draft: Draft, node: Node, numbers: tuple[int, ...]) -> None:
         draft.fail("20932", node.span, f"the variable {key} does not exist")
     if key.startswith("V.E."):
         draft.fail("20908", node.span, "an external variable cannot be deleted")
-    kept = {k: v for k, v in draft.state.variables.items() if k != key}
+    kept = without(draft.state.variables, key)
     if stored.outer is not None:
-        kept[key] = stored.outer
+        kept = with_value(kept, key, stored.outer)
     draft.state = replace(draft.state, variables=kept)
 
 
@@ -213,7 +214,7 @@ def size(
 
 
 def _store(draft: Draft, key: str, stored: Stored) -> None:
-    variables = {**draft.state.variables, key: stored}
+    variables = with_value(draft.state.variables, key, stored)
     draft.state = replace(draft.state, variables=variables)
 
 

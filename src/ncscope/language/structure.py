@@ -68,7 +68,7 @@ class Statement:
 
     keyword: str
     first: int
-    branches: tuple[int, ...] = ()
+    branches: list[int] = field(default_factory=list)
     end: int | None = None
 
 
@@ -178,6 +178,9 @@ class _Builder:
             for label in entry.block.labels:
                 self._label(level, at, label)
             self.around[at] = self.open
+            if len(self.open) == MOST_NESTED and _opens(entry):
+                self._too_deep(entry)
+                return
             if entry.keyword:
                 self._statement(at, entry)
             elif not entry.block.ok and entry.block.span.text.lstrip("/N0123456789 ")[:1] == "$":
@@ -200,9 +203,7 @@ class _Builder:
         if keyword.startswith("#") and entry.block.number is not None:
             message = f"{keyword} must stand first in its line, without a block number."
             self.found.append(diagnostic("20593", entry.block.span, message))
-        if keyword == "IF" and jumps(entry.block.control):
-            return
-        if keyword in OPENINGS:
+        if _opens(entry):
             self._begin(at, keyword)
         elif keyword in BRANCHES:
             self._branch(at, keyword)
@@ -212,12 +213,15 @@ class _Builder:
             self._leave(at, keyword)
 
     def _begin(self, at: int, keyword: str) -> None:
-        if len(self.open) == MOST_NESTED:
-            message = f"Control statements are nested more than {MOST_NESTED} deep."
-            self.found.append(diagnostic("20211", self.entries[at].span, message))
         statement = Statement(keyword, at)
         self.statements[at] = statement
         self.open = (*self.open, statement)
+
+    def _too_deep(self, entry: Entry) -> None:
+        """The rest of the level is not looked at: the program does not run."""
+        message = f"Control statements are nested more than {MOST_NESTED} deep."
+        hint = "move the inner statements into a subprogram"
+        self.found.append(diagnostic("20211", entry.span, message, hint))
 
     def _branch(self, at: int, keyword: str) -> None:
         top = self._expected(at, keyword, BRANCHES[keyword])
@@ -229,7 +233,7 @@ class _Builder:
                 message = f"{shown(keyword)} stands behind {shown(last.keyword)}."
                 id = UNEXPECTED.get(keyword, "N1007")
                 self.found.append(diagnostic(id, self.entries[at].span, message))
-        top.branches = (*top.branches, at)
+        top.branches.append(at)
         self.statements[at] = top
         self.around[at] = self.open
 
@@ -268,6 +272,10 @@ class _Builder:
 def shown(keyword: str) -> str:
     """A keyword as it is written."""
     return keyword if keyword.startswith("#") else f"${keyword}"
+
+
+def _opens(entry: Entry) -> bool:
+    return entry.keyword in OPENINGS and not (entry.keyword == "IF" and jumps(entry.block.control))
 
 
 def jumps(control: Control | None) -> bool:
