@@ -331,6 +331,7 @@ CATALOGUE: dict[str, Entry] = {
     "N2035": Entry("error", "G04 needs its time."),
     "N2036": Entry("warning", "A diameter is negative."),
     "N2037": Entry("warning", "The path of the cutter centre is not computed."),
+    "N2038": Entry("warning", "The curve of a spline is not computed."),
     "N2032": Entry("error", "A chamfer or rounding stands in the wrong kind of block."),
     "N2033": Entry("error", "A chamfer or rounding does not fit between its motions."),
     "N2034": Entry("error", "Coordinates change between the motions of a chamfer or rounding."),
@@ -368,7 +369,7 @@ CATALOGUE: dict[str, Entry] = {
     "N2602": Entry("error", "The user's kinematics has no solution."),
     "N4301": Entry("error", "A kinematics of the user cannot be loaded."),
     # Run, our own
-    "N4001": Entry("error", "The program has more blocks than --max-blocks allows."),
+    "N4001": Entry("error", "A loop never ends, or the program has too many blocks."),
     "N4002": Entry("error", "The program cannot be read."),
     "N4003": Entry("error", "A message file cannot be written."),
     "N4004": Entry("warning", "The points along a motion are farther apart than the tolerance."),

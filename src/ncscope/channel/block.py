@@ -22,7 +22,7 @@ from ncscope.channel.words import Words, collect_axes, cycle_letter, refuse_path
 from ncscope.diagnostics import Diagnostic, diagnostic
 from ncscope.kinematics.step import KinematicsError
 from ncscope.language import tree
-from ncscope.language.commands import lookup
+from ncscope.language.commands import SMOOTHING, lookup
 from ncscope.machine import Machine
 from ncscope.motion import Move
 from ncscope.motion.corners import Corner
@@ -128,7 +128,10 @@ def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None
     if command.name in COMMANDS:
         COMMANDS[command.name](draft, command)
     elif row is not None and row.kind == "no effect":
-        draft.warn("N2002", command.span, f"#{command.name} has no effect on positions")
+        what = "has no effect on positions"
+        if command.name in SMOOTHING:
+            what = "smooths the path between the ends of blocks; it is shown without"
+        draft.warn("N2002", command.span, f"#{command.name} {what}")
     else:
         draft.refuse(command.span, f"#{command.name}")
 

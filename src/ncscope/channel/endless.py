@@ -23,7 +23,7 @@ from ncscope.language.structure import LOOPS
 
 MOST_BLOCKS = 10_000_000
 """Blocks without a new one among them after which a run ends, where no limit is given."""
-SLOW = 20
+SLOW = 25
 """What a block of the step lane counts, where the loop need not come to an end."""
 
 

@@ -23,6 +23,7 @@ from ncscope.channel import (
     tools,
     travel,
 )
+from ncscope.channel.commands import spline
 from ncscope.channel.draft import Draft
 from ncscope.channel.gfunctions import GFUNCTIONS, WEIGHTED, GFunction
 from ncscope.channel.words import Words
@@ -33,6 +34,9 @@ from ncscope.machine import ZERO_GROUPS
 KNOWN_M = frozenset((0, 1, 2, 3, 4, 5, 17, 19, 29, 30, *range(40, 46)))
 """Stops, program end, return and spindle: without effect on positions beyond any doubt."""
 
+CONTOURING = frozenset((61, 261))
+"""G functions that round corners, so that the path misses the ends of blocks a little."""
+
 
 def _refuse_g(draft: Draft, words: Words) -> None:
     for number, word in words.gfunctions.items():
@@ -40,7 +44,12 @@ def _refuse_g(draft: Draft, words: Words) -> None:
         if row.effect == "refused":
             draft.refuse(word.span, f"G{number:02d} ({row.purpose})")
         if row.effect == "quiet":
-            draft.warn("N2002", word.span, f"G{number:02d} has no effect on positions")
+            what = "has no effect on positions"
+            if number in CONTOURING:
+                what = "rounds corners between the ends of blocks; the path is shown without it"
+            draft.warn("N2002", word.span, f"G{number:02d} {what}")
+        if number == 151:
+            spline.begin(draft, word.span, "G151")
     weighted = [n for n in words.gfunctions if n in WEIGHTED]
     if weighted:
         words.axes.clear()  # weights of G130.., not positions
@@ -48,7 +57,7 @@ def _refuse_g(draft: Draft, words: Words) -> None:
 
 def _modal(draft: Draft, words: Words) -> None:
     for number in words.gfunctions:
-        if number in (0, 1, 2, 3, 33, 63):
+        if number in (0, 1, 2, 3, 33, 63, 331, 332):
             draft.modal(motion=f"G{number:02d}")
         elif number in (70, 71):
             draft.modal(inch=number == 70)
@@ -151,6 +160,9 @@ def _technology(draft: Draft, words: Words) -> None:
         draft.modal(feed=feed[0] * draft.modes.length_factor)
     for letter in ("S", "E", "H"):
         word = words.addresses.pop(letter, None)
+        if letter == "H" and word is not None:
+            what = f"H{word[0]:g} is taken as without effect on positions"
+            draft.warn("N2002", word[1], what)
         if letter == "E" and word is not None:
             _end_feed(draft, *word)
     for number, span in words.mfunctions.items():

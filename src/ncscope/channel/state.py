@@ -23,13 +23,12 @@ INCH = 25.4
 class Modal:
     """The modal G functions that change what a word means.
 
-    motion: `G00` to `G03`, `G33` or `G63` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
+    motion: one of `motion.MOTIONS` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
     feed: mm or degrees per minute. radius: mm, of the arcs without a centre (R, G163), None where
-    a centre was given last. centre_absolute: G161. centre_fits: G165. corner_size:
-    mm, the last I of G301 and G302. compensation: 0, 41 or 42;
-    it begins with the next straight motion. diameter_axis: channel index of
-    the axis that G51 acts on, None with G52. The start
-    values are the built-in ones of P-CHAN-00063.
+    a centre was given last. centre_absolute: G161. centre_fits: G165. corner_size: mm, the last I
+    of G301 and G302. control_points: #SPLINE TYPE BSPLINE. compensation: 0, 41 or 42; it begins
+    with the next straight motion. diameter_axis: channel index of the axis that G51 acts on, None
+    with G52. The start values are the built-in ones of P-CHAN-00063.
     """
 
     motion: str = "G00"
@@ -42,6 +41,7 @@ class Modal:
     centre_absolute: bool = False
     centre_fits: bool = True
     corner_size: float = 0.0
+    control_points: bool = False
     compensation: int = 0
     compensation_begins: bool = False
     diameter_axis: int | None = None

@@ -18,8 +18,10 @@ if TYPE_CHECKING:
     from ncscope.channel.words import Words
 
 
-THREADS = ("G33", "G63")
+THREADS = ("G33", "G63", "G331", "G332")
 """Straight motions whose I, J, K are the pitch of a thread."""
+NO_FEED = ("G00", "G33", "G331", "G332")
+"""Motions that are rapid, or whose feed is that of the spindle."""
 
 
 def motion(draft: Draft, words: Words) -> None:
@@ -84,7 +86,7 @@ def _target(draft: Draft, words: Words) -> tuple[Array, Array | None]:
 
 def _check_feed(draft: Draft, span: Span) -> None:
     modes = draft.modes
-    if modes.motion not in ("G00", "G33") and modes.feed is None and not modes.feed_warned:
+    if modes.motion not in NO_FEED and modes.feed is None and not modes.feed_warned:
         draft.warn("20008", span, "a feed motion is programmed without a feed (F)")
         draft.modal(feed_warned=True)
 

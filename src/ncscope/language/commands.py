@@ -162,13 +162,13 @@ COMMANDS: tuple[Command, ...] = (
     Command("HSC ON", "no effect", "Smooths the path at high speed."),
     Command("HSC OFF", "no effect", "Smooths the path at high speed."),
     Command("CONTOUR MODE", "no effect", "Sets how contours are rounded."),
-    Command("SPLINE ON", "no effect", "Joins points by a spline."),
-    Command("SPLINE OFF", "no effect", "Joins points by a spline."),
-    Command("SPLINE TYPE AKIMA", "no effect", "Joins points by a spline."),
-    Command("SPLINE TYPE BSPLINE", "no effect", "Joins points by a spline."),
-    Command("AKIMA STARTVECTOR", "no effect", "Joins points by a spline."),
-    Command("AKIMA ENDVECTOR", "no effect", "Joins points by a spline."),
-    Command("AKIMA TRANS", "no effect", "Joins points by a spline."),
+    Command("SPLINE ON", "modelled", "Joins points by a spline: a warning about the path."),
+    Command("SPLINE OFF", "no effect", "Ends #SPLINE ON."),
+    Command("SPLINE TYPE AKIMA", "modelled", "Chooses the spline that leads through its points."),
+    Command("SPLINE TYPE BSPLINE", "modelled", "Chooses the spline that misses its points."),
+    Command("AKIMA STARTVECTOR", "no effect", "Sets how a spline begins."),
+    Command("AKIMA ENDVECTOR", "no effect", "Sets how a spline ends."),
+    Command("AKIMA TRANS", "no effect", "Sets how a spline joins its neighbours."),
     Command("FGROUP", "no effect", "Names the axes of the path feed."),
     Command("FGROUP ROT", "no effect", "Names the axes of the path feed."),
     Command("FGROUP WAXIS", "no effect", "Names the axes of the path feed."),
@@ -254,8 +254,8 @@ COMMANDS: tuple[Command, ...] = (
     Command("NIBBLE OFF", "no effect", "Punches or nibbles."),
     Command("PUNCH ON", "no effect", "Punches or nibbles."),
     Command("PUNCH OFF", "no effect", "Punches or nibbles."),
-    Command("STROKE DEF BEGIN", "no effect", "Punches or nibbles."),
-    Command("STROKE DEF END", "no effect", "Punches or nibbles."),
+    Command("STROKE DEF BEGIN", "refused", "Begins the motion of a stroke."),
+    Command("STROKE DEF END", "refused", "Ends the motion of a stroke."),
     Command("EDGE MACHINING ON", "no effect", "Machines edges."),
     Command("EDGE MACHINING OFF", "no effect", "Machines edges."),
     Command("GET WCS POSLIMIT", "no effect", "Reads limits of the workpiece system."),
@@ -322,6 +322,9 @@ COMMANDS: tuple[Command, ...] = (
     Command("TURN", "refused", "Turns with a turning tool."),
 )
 # fmt: on
+
+SMOOTHING = frozenset({"HSC", "HSC ON", "CONTOUR MODE", "FILTER", "FILTER ON"})
+"""Commands without effect on positions that change the path between them."""
 
 _BY_NAME = {command.name: command for command in COMMANDS}
 _LONGEST = max(len(name.split()) for name in _BY_NAME)

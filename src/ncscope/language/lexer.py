@@ -31,7 +31,17 @@ _PIECE = re.compile(
       | (?P<stray>.)""",
     re.VERBOSE,
 )
-_BRACKET_OR_END = re.compile(r"[()\n]")
+_COARSE = re.compile(
+    r"""(?P<plain>[^\\(;"\n]+)
+      | (?P<end>\n)
+      | (?P<remark>[;(])
+      | (?P<string>"(?:\\"|[^"\n])*")
+      | (?P<join>\\)
+      | (?P<open_string>"[^\n]*)""",
+    re.VERBOSE,
+)
+"""Code as long pieces, where only comments and joins are looked for."""
+_BRACKET = re.compile(r"[()]")
 _AFTER_JOIN = re.compile(r"\\[ \t\0\r]*(?=[;(\n]|\Z)")
 _NEEDS_TOKENS = re.compile(r"[\\(;\"]")
 
@@ -62,18 +72,23 @@ def tokens(text: str, start: int = 0) -> Iterator[Token]:
     A backslash before the end of the line, or before a comment that runs to it, joins the next
     line. Inside an open bracket, empty and commented lines after a join belong to the line too.
     """
+    return _pieces(text, start, _PIECE)
+
+
+def _pieces(text: str, start: int, pattern: re.Pattern[str]) -> Iterator[Token]:
     at, depth, joined, written = start, 0, False, True
     while at < len(text):
-        token = _token(text, at, joined)
+        token = _token(text, at, joined, pattern)
         yield token
         at = token.start + len(token.text)
-        depth += (token.text == "[") - (token.text == "]")
+        if token.kind in ("operator", "plain"):
+            depth += token.text.count("[") - token.text.count("]")
         if token.kind == "join":
             joined, written = True, False
         elif token.kind == "end":
             if written or depth <= 0 or not joined:
                 return
-        elif token.kind not in ("blank", "comment"):
+        elif token.kind not in ("blank", "comment") and token.text.strip(BLANKS):
             written = True
 
 
@@ -96,7 +111,7 @@ def _joined_line(text: str, offset: int) -> Line:
     """The logical line at the beginning of the text, which stands at `offset` of the source."""
     pieces = []
     length = longest = 0
-    for token in tokens(text):
+    for token in _pieces(text, 0, _COARSE):
         hidden = token.kind in ("comment", "join", "end")
         pieces.append(" " * len(token.text) if hidden else token.text)
         length = 0 if "\n" in token.text else length + len(token.text)
@@ -105,8 +120,8 @@ def _joined_line(text: str, offset: int) -> Line:
     return Line(code, offset, offset + len(code), longest > LONGEST_LINE)
 
 
-def _token(text: str, at: int, joined: bool) -> Token:
-    match = _PIECE.match(text, at)
+def _token(text: str, at: int, joined: bool, pattern: re.Pattern[str]) -> Token:
+    match = pattern.match(text, at)
     assert match is not None and match.lastgroup is not None
     kind = match.lastgroup
     if kind == "remark":
@@ -128,14 +143,14 @@ def _comment(text: str, at: int, joined: bool) -> Token:
 
 def _closing(text: str, at: int) -> int:
     """The offset after the bracket that closes the comment, or the end of the line."""
-    depth = 0
-    for match in _BRACKET_OR_END.finditer(text, at):
-        if match.group() == "\n":
-            return match.start()
+    depth, end = 0, _line_end(text, at)
+    if text.find(")", at, end) < 0:
+        return end
+    for match in _BRACKET.finditer(text, at, end):
         depth += 1 if match.group() == "(" else -1
         if depth == 0:
             return match.end()
-    return len(text)
+    return end
 
 
 def _join(text: str, at: int) -> Token:

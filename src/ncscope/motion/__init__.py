@@ -13,7 +13,7 @@ from ncscope.diagnostics import Span
 from ncscope.frames import Array
 from ncscope.motion.arc import Arc
 
-MOTIONS = ("G00", "G01", "G02", "G03", "G33", "G63")
+MOTIONS = ("G00", "G01", "G02", "G03", "G33", "G63", "G331", "G332")
 """The path conditions that a move can have."""
 LINEAR = 2
 """So many of MOTIONS, from the first on, are plain straight motions."""

@@ -24,6 +24,7 @@ from ncscope.channel.commands import (
     positions,
     preset,
     program_transformation,
+    spline,
     system_mode,
     systems,
     tool_orientation,
@@ -59,6 +60,7 @@ COMMANDS = {
     **exchange.COMMANDS,
     **machine_data.COMMANDS,
     **errors.COMMANDS,
+    **spline.COMMANDS,
 }
 
 LAST = frozenset({"SUPPRESS OFFSETS", "TOOL ORI CS"})
