@@ -107,8 +107,7 @@ def test_endless_program_ends_with_the_loop_that_goes_on(text, line):
     (error,) = [d for d in result.diagnostics if d.is_error]
     assert error.id == "N4001"
     if line is not None:
-        named = [span.line for _, span in error.notes] or [error.line]
-        assert named == [line]
+        assert [span.line for _, span in error.notes] == [line]
 
 
 # --- expressions -------------------------------------------------------------------------------

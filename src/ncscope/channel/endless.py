@@ -39,10 +39,10 @@ class _Place:
 
 
 class Watch:
-    """Looks at a walker behind each of its blocks. limited: whether blocks are counted at all."""
+    """Looks at a walker behind each of its blocks. awake: False where the user set a limit."""
 
-    def __init__(self, walker: Walker, limited: bool) -> None:
-        self.walker, self.limited = walker, limited
+    def __init__(self, walker: Walker, awake: bool) -> None:
+        self.walker, self.awake = walker, awake
         self._seen: dict[int, bytearray] = {}
         self._begin()
 
@@ -55,6 +55,8 @@ class Watch:
 
     def look(self, layout: object, at: int, state: State, blocks: int = 0) -> Diagnostic | None:
         """What is to be said behind the block `at`, or behind many blocks of the loop lane."""
+        if not self.awake:
+            return None
         if not blocks and self._is_new(layout, at):
             self._begin()
             return None
@@ -65,7 +67,7 @@ class Watch:
             return self._repeats(self._place)
         if self._steps >= self._window:
             self._keep(state)
-        if self.limited and self._spent > MOST_BLOCKS and not self._counts():
+        if self._spent > MOST_BLOCKS and not self._counts():
             return self.too_many(self._blocks)
         return None
 

@@ -47,7 +47,7 @@ def check_command(
         else:
             from ncscope.execution import Options
 
-            options = Options(max_blocks=1_000_000, external=read_settings(values))
+            options = Options(external=read_settings(values))
             result, more, source = run_program(
                 path, machine, options, probe, folders or (), kinematics, manual
             )
