@@ -95,7 +95,7 @@ def test_an_axis_that_turns_up_later_has_its_column(tmp_path, shape):
 def test_a_run_that_is_broken_off_leaves_a_valid_file(tmp_path, shape):
     """Ctrl-C while an endless loop moves; the file has moves and its end."""
     path, out = tmp_path / "endless.nc", tmp_path / f"out.{shape}"
-    path.write_text("$WHILE 1\nG91 X1\nX-1\nG90\n$ENDWHILE\nM30\n")
+    path.write_text("P1=0\n$WHILE 1\nP1=P1+1\nG91 X1\nX-1\nG90\n$ENDWHILE\nM30\n")
     child = subprocess.Popen(
         [sys.executable, *CODE, "run", str(path), "--out", str(out)],
         stderr=subprocess.PIPE,

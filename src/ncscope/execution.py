@@ -242,6 +242,7 @@ class _Loop:
         self.ended, self.returned, self.calls = step.ended, step.returned, step.calls
         if step.state.axes is not before.axes:
             self.scanner = None
+            self.recorder.split()
             self.channels.append((self.recorder.moves, step.state.axes))
 
     def meet(self, block: tree.Block, found: Iterable[Diagnostic]) -> bool:

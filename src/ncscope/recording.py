@@ -155,6 +155,10 @@ class Recorder:
         """A block without motion: what `explain` of its line shows."""
         self.places[line] = Visit(coordinates, axes, self.file, block, program, position, position)
 
+    def split(self) -> None:
+        """The axes are others from here on, or their limits."""
+        self._close()
+
     def finish(self) -> None:
         """Gives the last stretch to the sink."""
         self._close()

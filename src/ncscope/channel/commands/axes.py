@@ -71,8 +71,15 @@ _FORM = "write [name, logical number, index], for example #SET AX [X,1,0] [Y,2,1
 
 
 def _is_option(draft: Draft, group: tree.Group) -> bool:
-    """`FAST` and take-over options in a bracket of their own change no position here."""
-    return len(group.cells) == 1 and all(isinstance(i.value, tree.Name) for i in group.items)
+    """`FAST`, and options that say how offsets are taken over, in a bracket of their own."""
+    names = [i.value.text for i in group.items if isinstance(i.value, tree.Name)]
+    if len(group.cells) != 1 or len(names) != len(group.items) or not names:
+        return False
+    if names[0] in draft.state.axis_names or len(names[0]) == 1:
+        return False  # an axis without its number and index
+    if names != ["FAST"]:
+        draft.warn("N2006", group.span, f"the option {names[0]} of #SET AX is ignored")
+    return True
 
 
 def axis_of_group(draft: Draft, group: tree.Group) -> tuple[int, Axis]:
@@ -97,7 +104,8 @@ def _known(draft: Draft, group: tree.Group, name: str, number: int) -> Axis:
     """The axis of the lists under its name in the channel; by its letter where no list has it."""
     known = draft.machine.known_axes
     if number in known:
-        return replace(known[number], name=name)
+        held = next((axis for axis in draft.state.axes if axis.number == number), known[number])
+        return replace(held, name=name)
     if known and len(known) > len(draft.machine.axes):
         has = " ".join(str(i) for i in sorted(known))
         draft.fail("20312", group.span, f"axis number {number} is unknown; the lists have {has}")

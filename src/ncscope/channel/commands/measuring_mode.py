@@ -28,6 +28,12 @@ def settings(draft: Draft, command: tree.HashCommand) -> None:
         elif item.key == "SIMU_OFFSET":
             hint = "give the contact as a row of --probe"
             draft.warn("N2006", item.span, "SIMU_OFFSET of #MEAS is ignored", hint)
+        elif item.key is None:
+            what = "an option of #MEAS has a name and a value"
+            draft.fail("N1005", item.span, what, "write for example #MEAS [TYPE=2]")
+        else:
+            what = f"the option {item.key} of #MEAS has no effect on positions"
+            draft.warn("N2006", item.span, what)
 
 
 def mode(draft: Draft, command: tree.HashCommand) -> None:

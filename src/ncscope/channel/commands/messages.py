@@ -91,6 +91,7 @@ def _text(draft: Draft, command: tree.HashCommand) -> str:
     first, *rest = command.groups[-1].places
     if first is None:
         draft.fail("20726", command.span, "the text of the message is missing")
+    _refuse_names(draft, command)
     template = evaluate_value(draft, first)
     if not isinstance(template, str):
         draft.fail("20721", first.span, "a message begins with its text in quotes")
@@ -105,6 +106,15 @@ def _text(draft: Draft, command: tree.HashCommand) -> str:
             draft.fail("20726", command.groups[-1].span, "a value of the message is missing")
         values.append((evaluate_value(draft, place), place))
     return _format(draft, template, first, values)
+
+
+def _refuse_names(draft: Draft, command: tree.HashCommand) -> None:
+    """A word without quotes is neither a text nor a value."""
+    for place in command.groups[-1].places:
+        if isinstance(place, tree.Name):
+            what = f"{place.text} is neither a text nor a value"
+            hint = f'write "{place.text}", or for the position of an axis V.A.ABS.X'
+            draft.fail("20721", place.span, what, hint)
 
 
 def _format(draft: Draft, template: str, text: tree.Expression, values: list) -> str:

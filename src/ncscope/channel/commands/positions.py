@@ -12,6 +12,7 @@ from ncscope.channel import user_variables
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import indices
 from ncscope.language import tree
+from ncscope.language.cursor import Mistake
 from ncscope.language.terms import parse_expression
 
 _FORM = "write for example #GET CMDPOS [P1=X, V.P.POS=Y]"
@@ -32,11 +33,18 @@ def get(draft: Draft, command: tree.HashCommand) -> None:
 
 
 def _target(draft: Draft, item: tree.Item) -> tree.Variable | tree.Parameter:
-    node = None if item.key is None else parse_expression(item.key, item.span)
+    node = None if item.key is None else _parsed(item)
     if not isinstance(node, (tree.Variable, tree.Parameter)) or not user_variables.is_user(node):
         what = "the position goes to a P parameter or a variable of the program"
         draft.fail("N1005", item.span, what, _FORM)
     return replace(node, span=item.span)
+
+
+def _parsed(item: tree.Item) -> tree.Expression | None:
+    try:
+        return parse_expression(item.key or "", item.span)
+    except Mistake:
+        return None
 
 
 COMMANDS = {"GET CMDPOS": get, "GET ACTPOS": get}

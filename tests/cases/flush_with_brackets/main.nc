@@ -1,0 +1,3 @@
+N10 X1
+N20 #FLUSH WAIT [5]
+M30

@@ -1,0 +1,2 @@
+N10 #MSG SAVE EXCLUSIVE ["%s", X]
+M30

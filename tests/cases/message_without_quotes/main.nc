@@ -1,0 +1,3 @@
+N10 #MSG ["X is %d", 5]
+N20 #MSG [hello]
+M30

@@ -1,0 +1,4 @@
+N10 #SET AX FAST [X,1,0] [Y,2,1] [Z,3,2]
+N20 X1
+N30 #SET AX [X] [Y,2,1]
+M30
