@@ -17,6 +17,7 @@ from ncscope.language import tree
 from ncscope.machine import MAX_CHANNEL_AXES, Axis, is_rotary_name
 
 AXIS_LETTERS = "ABCQUVWXYZ"
+LONGEST_NAME = 16
 
 
 def set_ax(draft: Draft, command: tree.HashCommand) -> None:
@@ -85,6 +86,10 @@ def _is_option(draft: Draft, group: tree.Group) -> bool:
 def axis_of_group(draft: Draft, group: tree.Group) -> tuple[int, Axis]:
     """Channel index and axis of `[name, logical number, index]`."""
     places = group.places
+    if not places:
+        draft.fail("20480", group.span, "the brackets of an axis are empty", _FORM)
+    if places[-1] is None:
+        draft.fail("20483", group.span, "a comma stands before the closing bracket", _FORM)
     if len(places) < 3:
         draft.fail("21251", group.span, "an axis needs its name, number and index", _FORM)
     if len(places) > 3:
@@ -92,12 +97,23 @@ def axis_of_group(draft: Draft, group: tree.Group) -> tuple[int, Axis]:
     name, number, index = places[:3]
     if not isinstance(name, tree.Name) or name.text[:1] not in AXIS_LETTERS:
         draft.fail("20797", group.span, "an axis name begins with A B C Q U V W X Y or Z", _FORM)
+    if len(name.text) > LONGEST_NAME:
+        what = f"an axis name has at most {LONGEST_NAME} characters, not {len(name.text)}"
+        draft.fail("20425", name.span, what)
     if number is None or index is None:
         draft.fail("21251", group.span, "an axis needs its name, number and index", _FORM)
-    channel_index = round(evaluate_number(draft, index))
+    channel_index = _whole(draft, index, "index")
     if not 0 <= channel_index < MAX_CHANNEL_AXES:
         draft.fail("20697", group.span, f"index {channel_index} is not 0 to {MAX_CHANNEL_AXES - 1}")
-    return channel_index, _known(draft, group, name.text, round(evaluate_number(draft, number)))
+    return channel_index, _known(draft, group, name.text, _whole(draft, number, "number"))
+
+
+def _whole(draft: Draft, node: tree.Expression, what: str) -> int:
+    value = evaluate_number(draft, node)
+    if abs(value - round(value)) > 1e-9:
+        message = f"the {what} of an axis is a whole number, not {value:g}"
+        draft.fail("N1005", node.span, message, _FORM)
+    return round(value)
 
 
 def _known(draft: Draft, group: tree.Group, name: str, number: int) -> Axis:
@@ -192,7 +208,11 @@ def channel_init(draft: Draft, command: tree.HashCommand) -> None:
             draft.fail("21508", item.span, "AX can only be given with ACTPOS")
         if item.key == "AX" and isinstance(item.value, tree.Name):
             draft.axis_index(item.value.text, item.span, "20797")
-        elif item.key != "AXNR":
+        elif item.key == "AXNR" and item.value is not None:
+            number = _whole(draft, item.value, "number")
+            if all(axis.number != number for axis in draft.state.axes):
+                draft.fail("20312", item.span, f"axis number {number} is not in this channel")
+        else:
             draft.fail("N1005", item.span, "only AX=.. and AXNR=.. can stand here")
     draft.set_coordinates(replace(draft.state.coordinates, manual=None), command.span)
 

@@ -62,7 +62,7 @@ def _whole(draft: Draft, given: dict[str, _Given], key: str, allowed) -> int | N
         return None
     value, item = given[key]
     number = round(value)
-    if number not in allowed:
+    if abs(value - number) > 1e-9 or number not in allowed:
         last = "0, 2 or 7" if isinstance(allowed, tuple) else f"{allowed[0]} to {allowed[-1]}"
         draft.fail("N1005", item.span, f"{key} is {last}, not {value:g}", _FORM)
     return number

@@ -7,6 +7,7 @@ Source: TF5200 programming manual; P-AXIS-00152, P-AXIS-00177, P-AXIS-00178.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -109,15 +110,23 @@ def _write(draft: Draft, item: tree.Item, index: int, key: str, text: str) -> No
     if key not in MODELLED:
         draft.warn("N2002", item.span, f"#MACHINE DATA {key} has no effect on positions")
         return
-    try:
-        value = float(text)
-    except ValueError:
-        draft.fail("N1005", item.span, f"{text} is not a number", _FORM)
+    value = _number(text)
+    if value is None:
+        draft.fail("N1005", item.span, f"{text} is not a number of a list", _FORM)
     axes = list(draft.state.axes)
     axes[index] = MODELLED[key](axes[index], value)
     if (limits := axes[index].limits) is not None and limits[0] > limits[1]:
         draft.fail("N1005", item.span, f"the software limits of {name} exclude each other")
     draft.state = replace(draft.state, axes=tuple(axes))
+
+
+def _number(text: str) -> float | None:
+    """A value as lists write it, hexadecimal with 0x; None where it is none or too large."""
+    try:
+        value = float(int(text, 16)) if text[:2].lower() == "0x" else float(text)
+    except (ValueError, OverflowError):
+        return None
+    return value if math.isfinite(value) else None
 
 
 COMMANDS = {"MACHINE DATA": machine_data}

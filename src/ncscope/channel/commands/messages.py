@@ -8,6 +8,7 @@ from dataclasses import replace
 from ncscope.channel.draft import Draft, Message
 from ncscope.channel.evaluation import evaluate_value
 from ncscope.language import tree
+from ncscope.language.functions import rounded
 
 FORMAT_ITEM = re.compile(r"%(.?)")
 MAX_VALUES = 10
@@ -139,7 +140,7 @@ def _format(draft: Draft, template: str, text: tree.Expression, values: list) ->
             return value if isinstance(value, str) else f"{value:g}"
         if isinstance(value, str):
             draft.fail("20721", place.span, f"%{letter} needs a number")
-        return f"{round(value):d}" if letter in "dD" else f"{value:f}"
+        return f"{rounded(value):d}" if letter in "dD" else f"{value:f}"
 
     result = FORMAT_ITEM.sub(item, template)
     if remaining:
