@@ -22,10 +22,16 @@ from ncscope.language.expressions import EvaluationError, compile_expression
 from ncscope.language.functions import rounded
 from ncscope.language.terms import parse_expression
 from ncscope.language.vocabulary import WORDS
-from ncscope.machine import ChannelSettings, Machine
+from ncscope.machine import Axis, ChannelSettings, Machine
 
 FILES = {"a.nc": "G91 X1\nM17\n", "b.nc": "L a.nc\nL b.nc\n", "c.nc": "%L S\nX@P1\nM17\nLL S\n"}
 MACHINE = Machine(settings=ChannelSettings(called_files={"M6": "a.nc", "G80": "c.nc"}))
+HEAD, _ = ncscope.load_machine("examples/machines/ca_head")
+TURNING = Machine(
+    axes=tuple(Axis(n, i, rotary=n == "C", modulo_range=(0.0, 360.0) if n == "C" else None)
+               for i, n in enumerate("XYZC", 1)),
+    settings=MACHINE.settings,
+)  # fmt: skip
 NUMBER = st.sampled_from(["0", "1", "-2", "3.5", "[1+1]", "P1", "V.P.A", "@P1", "SIN[30]", "1/0",
                           "[", "P[P1]", '"M"', "V.L.B[1]", "1e9", "9" * 20])  # fmt: skip
 AXIS = st.tuples(st.sampled_from(["X", "Y", "Z=", "C", "@X", "X["]), NUMBER).map("".join)
@@ -60,14 +66,59 @@ HASH = st.tuples(
     st.sampled_from([c.name for c in COMMANDS]),
     st.sampled_from(["", " [1]", " [X,1,0]", " [", ' ["%f", P1]', " X1", " [1,2,3,0,0,30]", "=2"]),
 ).map(lambda p: f"#{p[0]}{p[1]}")
+ARC = st.tuples(
+    st.sampled_from(
+        [
+            "G02",
+            "G03",
+            "G17 G02",
+            "G18 G03",
+            "G19 G02",
+            "G163=5 G02",
+            "G164 G03",
+            "G161 G02",
+            "G01",
+            "G331",
+            "G91 G03",
+            "G41 G01",
+            "G70 G02",
+        ]
+    ),
+    st.sampled_from(["", " X10", " X10 Y0", " Y1 Z5", " Z0 X0", " C90", " X5 Y5 Z5 C400"]),
+    st.sampled_from(
+        ["", " I5", " I5 J0", " J5 K1", " K0", " R5", " R-20", " R0", " I1 R1", " I1e3"]
+    ),
+    st.sampled_from(["", " F100", " F0", " E5", " #CHR=1", " #RND=2 #FRC=5", " #CHF=0", " S[1]"]),
+).map("".join)
+TYPICAL = r"""
+    #SET AX [X,1,0] [Y,2,1] | #SET AX [C,5,0] | #CALL AX [U,7,3] | #PUT AX [Z] | #AX DEF DEFAULT |
+    #PUT AX ALL | #AX REQUEST [IDX] [C,5,3] | #GET CMDPOS [P1=X, V.P.A=Y] | #GET ACTPOS [X=P1] |
+    #CHANNEL INIT [CMDPOS] | #CHANNEL INIT [ACTPOS AX=X] | #ERROR [ID=5 RC=0 PV1=P1] | #ERROR |
+    #MACHINE DATA [AX=X AXPARAM="kenngr.swe_pos 5"] | #MACHINE DATA [AXNR=P1 AXPARAM="x y"] |
+    #MSG SAVE EXCLUSIVE ["%d %s %f", 1, "a", P1] | #MSG ["%q"] | #FILE NAME [MSG=a.txt G81=a.nc] |
+    #CS DEF [2] [1,2,3,30,0,45] | #CS ON [2] | #CS ON [1,2,3,0,P1,0] | #CS OFF | #ACS ON [5,0,0] |
+    #BCS ON [1,0,0] | #CS ADD [A] [1,2,3,0,0,9] | #CS SELECT [A] | #CS DEL [A] | #ECS ON |
+    #MCS ON | #MCS OFF | #MCS ON EX TOOL | #ROTATION ON [ANGLE 30 CENTER1 1] | #ROTATION OFF |
+    #SCALE ON X2 Y3 | #SCALE OFF | #PSET X5 | #PRESET | #SUPPRESS OFFSETS [ZERO] X1 |
+    #KIN ID [91] | #TRAFO ON | #TRAFO OFF | #TRAFO [91] | #PTP ON | #PTP OFF | #TLC ON [5] |
+    #TLC OFF | #TLAX [X-] | #TOOL ORI CS | #TRANSFORM [PCS] [WCS] X1 Y1 Z1 | #WCS TO MCS X1 |
+    #SPLINE TYPE BSPLINE | #SPLINE ON | G151 | #DELETE V.P.A | #INIT MACRO TAB | G92 X1 | G54 |
+    G59 X0 | G159=2 | G160=1 X1 | G74 X1 | G98 X-1 | G99 X1 | G04 X2 | G04 | G20 | G21 | G23 |
+    G351 X-1 | G51 | G52 | G68 R30 | G69 | G70 | G71 | D1 | T1 D0 | V.G.WZ_AKT.L = 5 |
+    V.G.NP_AKT.V.X = 3 | V.G.KIN[91].PARAM[0] = 1 | X[V.A.ABS.X + 1] | Y[V.A.ACS.ABS.C] |
+    P1 = V.G.BLOCK_NR | V.S.T = "a" + LEFT["bcd", 2] | P1 = EXIST[V.P.A] | P1 = FIND["abc", "c"] |
+    P1 = SIZEOF[V.L.B] | C-200 | C+-200 | C--5 | C=370 | XA=5
+"""
+COMMAND = st.sampled_from([text.strip() for text in TYPICAL.split("|")])
 OTHER = st.one_of(
     st.sampled_from(WORDS).map(lambda w: f"X[{w.name} 1]"),
     st.text(max_size=12),
     st.sampled_from(["%MAIN", "%L S", "%L T", "/X1", "(open", "\\", "#COMMENT BEGIN", ";"]),
 )
 BLOCK = st.one_of(
-    st.lists(WORD, min_size=1, max_size=4).map(" ".join), AXIS, CALL, CONTROL, CONTROL, HASH, OTHER
-)
+    st.lists(WORD, min_size=1, max_size=4).map(" ".join), AXIS, CALL, CONTROL, CONTROL, HASH, OTHER,
+    ARC, ARC, COMMAND, COMMAND, COMMAND
+)  # fmt: skip
 PROGRAM = st.lists(BLOCK, min_size=1, max_size=20).map("\n".join)
 
 
@@ -76,13 +127,29 @@ def load(name):
 
 
 @settings(max_examples=400, deadline=None)
-@given(PROGRAM, st.sampled_from(["", "\nM30\n%L S\nX5\nM17\n"]))
-def test_any_blocks_end(program, tail):
-    result = ncscope.run(MACHINE, program + tail, Options(max_blocks=400, load=load))
+@given(
+    PROGRAM,
+    st.sampled_from(["", "\nM30\n%L S\nX5\nM17\n"]),
+    st.sampled_from([MACHINE, HEAD, TURNING]),
+    st.sampled_from([None, None, 0.5]),
+)
+def test_any_blocks_end(program, tail, machine, sample):
+    options = Options(max_blocks=400, load=load, sample=sample)
+    result = ncscope.run(machine, program + tail, options)
     for item in result.diagnostics:
         ncscope.render(item)
     assert result.ok == (not any(d.is_error for d in result.diagnostics))
-    assert len(result) <= 400 * 40
+    assert sample or len(result) <= 400 * 40
+
+
+@settings(max_examples=100, deadline=None)
+@given(PROGRAM, st.sampled_from(["", "\nM30\n%L S\nX5\nM17\n"]))
+def test_any_blocks_end_without_a_limit_of_the_user(program, tail):
+    """The built-in limit, made small: the state comes back, or too many blocks bring none anew."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("ncscope.channel.endless.MOST_BLOCKS", 5_000)
+        result = ncscope.run(MACHINE, program + tail, Options(load=load))
+    assert result.ok == (not any(d.is_error for d in result.diagnostics))
 
 
 @settings(max_examples=100, deadline=None)

@@ -41,17 +41,20 @@ BULK_FROM = 70_000
 
 @dataclass
 class _Log:
-    """Diagnostics in order; a note about the same thing is kept once per run."""
+    """Diagnostics in order; of those that do not end the run, a note about the same thing is kept
+    once, and a warning once for its place, however often a loop brings it."""
 
     items: list[Diagnostic] = field(default_factory=list)
-    noted: set[tuple[str, str]] = field(default_factory=set)
+    known: set[tuple[str, str, str, int]] = field(default_factory=set)
     stop: bool = False
 
     def add(self, item: Diagnostic, strict: bool) -> None:
-        if item.severity is Severity.NOTE:
-            if (item.id, item.message) in self.noted:
+        if not item.is_error:
+            place = item.span if item.severity is Severity.WARNING else None
+            file, start = (place.source.name, place.start) if place is not None else ("", 0)
+            if (item.id, item.message, file, start) in self.known:
                 return
-            self.noted.add((item.id, item.message))
+            self.known.add((item.id, item.message, file, start))
         self.items.append(item)
         self.stop |= item.is_error or (strict and item.severity is Severity.WARNING)
 

@@ -116,3 +116,8 @@ def test_layered_mapping_is_a_dict_that_never_changes():
         mapping["none"]
     with pytest.raises(KeyError):
         without(mapping, next(iter(mapping)))[next(iter(mapping))]
+
+
+def test_a_warning_in_a_loop_is_given_once_for_its_place():
+    result = ncscope.run(Machine(), "$FOR P1=1,50,1\n#CS OFF\n#CS OFF ALL\n$ENDFOR\nM30\n")
+    assert [(d.id, d.line) for d in result.diagnostics] == [("20824", 2), ("20824", 3)]
