@@ -72,6 +72,7 @@ def join(first: Move, second: Move, corner: Corner, chain: Coordinates) -> tuple
             return first, second
         out, back, centre, clockwise = found
     else:
+        _refuse_reversal(first, second)
         out, back = _chamfer(first, second, corner)
         centre, clockwise = None, False
     begin, end = _at(first, out), _at(second, back)
@@ -110,6 +111,18 @@ def _chamfer(first: Move, second: Move, corner: Corner) -> tuple[float, float]:
     if distance > longest * (1 + _SLACK):
         raise _too_large(f"the chamfer needs {distance:.4f} mm of both motions", longest)
     return 1.0 - _share(first, distance, at_end=True), _share(second, distance, at_end=False)
+
+
+def _refuse_reversal(first: Move, second: Move) -> None:
+    """Fails where a straight move runs back over a straight one: there is no corner to cut."""
+    if first.arc is not None or second.arc is not None:
+        return
+    before, behind = (first.program - first.start)[:3], (second.program - second.start)[:3]
+    lengths = float(np.linalg.norm(before)), float(np.linalg.norm(behind))
+    if min(lengths) > 0.0:
+        apart = before / lengths[0] + behind / lengths[1]
+        if float(np.linalg.norm(apart)) < STRAIGHT:
+            raise CornerError("N2033", "the second motion runs back over the first", _NO_ROOM)
 
 
 def _distance_of_width(first: Move, second: Move, width: float, longest: float) -> float:
