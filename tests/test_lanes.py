@@ -147,6 +147,16 @@ def test_modulo_axes_do_take_the_bulk_lane():
     assert result.pcs[200, 3] == 199 * 7 % 360
 
 
+def test_a_swing_goes_on_from_one_stretch_to_the_next():
+    """C turns 2 degrees to and fro while the tool stands 1 degree beside the pole: 11 moves with
+    22 degrees, of which the loop lane takes all but the first."""
+    loop = "$FOR P1=1,6,1\nX0 A1 C2\nC0\n$ENDFOR\nM30\n"
+    text = "#KIN ID [91]\n#TRAFO ON\nG90 F100 G0\n" + loop
+    assert_equal(CA_HEAD, text)
+    found = ncscope.run(CA_HEAD, text).diagnostics
+    assert "22.0 degrees in 11 blocks" in next(d.message for d in found if d.id == "N4102")
+
+
 def test_free_axes_continue_from_row_to_row_in_both_lanes():
     """A vertical tool leaves C free: it keeps its place. Two rows of three are vertical."""
     rows = "".join(f"X{i} C{20 * i} A{0 if i % 3 else 10 + i}\n" for i in range(60))
