@@ -361,6 +361,7 @@ CATALOGUE: dict[str, Entry] = {
     "N3009": Entry("warning", "The kinematics will fail when it is selected."),
     "N3010": Entry("warning", "The kinematics looks unusual; check it."),
     "N3011": Entry("warning", "A key of a list is spelled with other upper and lower case."),
+    "N3012": Entry("warning", "A list in the folder of a machine has a name that says no kind."),
     # Conversion of lists, our own
     "N3501": Entry("warning", "A part of a list has no form in the syntax that is asked for."),
     "N3502": Entry("error", "A library kinematics cannot be turned into the universal one."),

@@ -276,6 +276,15 @@ def test_single_list_by_name_and_by_content(tmp_path):
     assert ids(load_machine(tmp_path / "empty")[1]) == ["N3008"]
 
 
+def test_a_list_whose_name_says_no_kind_is_named(tmp_path):
+    (tmp_path / "sda.lis").write_text("kopf.log_achs_name[0] X\n")
+    (tmp_path / "wz.lis").write_text("wz[1].laenge 100000\n")
+    (tmp_path / "notes.txt").write_text("no list\n")
+    found = load_machine(tmp_path)[1]
+    named = [d.message for d in found if d.id == "N3012"]
+    assert len(named) == 1 and named[0].startswith("wz.lis is not read")
+
+
 KEYS = st.sampled_from([row.key for row in table.rows() if row.status != "-"]).flatmap(
     lambda key: st.sampled_from([key.replace("[]", f"[{n}]") for n in (0, 1, 5, 91, 999999)])
 )

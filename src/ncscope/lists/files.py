@@ -98,12 +98,13 @@ def _lists_of_folder(folder: Path) -> Found:
     for name in names:
         kind = kind_of_name(name)
         if kind is None:
+            complaints.extend(_unnamed(name))
             continue
         document, found = _read_below(folder, name, None)
         complaints.extend(found)
         if document is not None:
             files.append(ListFile(kind, document, _number_of_name(name), _is_default(name)))
-    if not files and not complaints:
+    if not files and not any(item.is_error for item in complaints):
         complaints.append(_no_list(f"the folder {folder.name} has no machine list"))
     return tuple(files), tuple(complaints)
 
@@ -200,6 +201,17 @@ def _number_of_name(name: str) -> int | None:
     """The last number in a file name: 3 of `achs3.lis`."""
     numbers = re.findall(r"[0-9]{1,6}", name)
     return int(numbers[-1]) if numbers else None
+
+
+def _unnamed(name: str) -> Iterator[Diagnostic]:
+    """A list that nobody reads because of its name."""
+    if name.lower().endswith(".lis"):
+        message = f"{_shown(name)} is not read: its name does not say what kind of list it is"
+        hint = (
+            "lists begin with sda, nullp, werkz, pzv, achs or extvar; "
+            "or name it in a start-up list (hochlauf.lis)"
+        )
+        yield diagnostic("N3012", None, message, hint)
 
 
 def _no_list(message: str) -> Diagnostic:
