@@ -54,3 +54,18 @@ def test_a_mapped_file_runs_like_a_read_one(tmp_path, monkeypatch):
     assert np.array_equal(mapped.acs, read.acs) and len(read) == 4999
     program.source.forget(len(program.source))
     assert program.source.line_text(3) == "N3 G1 X0.3 Y-3 F100"
+
+
+@given(st.lists(st.integers(0, 5000) | st.just(2047), max_size=40), st.data())
+def test_what_a_reader_of_lines_knows_is_what_counting_finds(lengths, data):
+    lines = ["x" * n for n in lengths] or [""]
+    text = "\n".join(lines) + "\n"
+    ends = [at + 1 for at, char in enumerate(text) if char == "\n"]
+    first = data.draw(st.integers(0, len(lines) - 1))
+    last = data.draw(st.integers(first, len(lines) - 1))
+    offset = data.draw(st.integers(0, len(text)))
+    for source in sources(text):
+        start = ends[first - 1] if first else 0
+        source.position(data.draw(st.integers(0, start)))
+        source.learn(start, np.array(ends[first : last + 1]), first + 1)
+        assert source.position(offset)[0] == text.count("\n", 0, offset) + 1

@@ -17,8 +17,6 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any, TypeVar, cast
 
-import numpy as np
-
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 MANY_ROWS = 1000
@@ -64,6 +62,8 @@ class _Waiting:
 
     def __call__(self, *arguments: Any) -> Any:
         if self.code is None:
+            import numpy as np
+
             _Waiting.calls += 1
             if _Waiting.calls <= MANY_CALLS and not _many(arguments):
                 with np.errstate(all="ignore"):
@@ -75,7 +75,7 @@ class _Waiting:
 
 def _many(arguments: tuple[Any, ...]) -> bool:
     for argument in arguments:  # `any` of a generator takes as long as a small loop itself
-        if type(argument) is np.ndarray and argument.ndim > 1 and len(argument) > MANY_ROWS:
+        if getattr(argument, "ndim", 0) > 1 and len(argument) > MANY_ROWS:
             return True
     return False
 

@@ -159,7 +159,9 @@ class Coordinates:
 
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Axis positions (..., n) for a tool tip (..., n) in the machine system."""
-        position = np.asarray(mcs, dtype=float) - self.tool_vector
+        position = np.asarray(mcs, dtype=float)
+        if self.tool_vector.any():
+            position = position - self.tool_vector
         axes = self._solved(position, near)
         return self.modulo.wrap(axes if self.manual is None else axes + self._jogged)
 

@@ -89,6 +89,11 @@ class Source:
             return line, len(before) - start
         return line, offset - self._start_of_line(piece * _PIECE) + 1
 
+    def learn(self, start: int, stops: NDArray[np.int64], line: int) -> None:
+        """What a reader of lines knows already: line `line` begins at `start`, and each stop is
+        the offset behind one of the lines from there on, without a gap."""
+        self._line_index.learn(start, stops, line)
+
     def line_text(self, line: int) -> str:
         """The text of line `line` (from 1) without its end-of-line characters."""
         start = self.line_start(line)
@@ -135,6 +140,14 @@ class _LineIndex:
         while self.counts[-1] < line - 1 and len(self.counts) <= pieces:
             self._count(len(self.counts) + AHEAD)
         return max(0, int(np.searchsorted(self.counts, line - 1, side="left")) - 1)
+
+    def learn(self, start: int, stops: NDArray[np.int64], line: int) -> None:
+        """See `Source.learn`; lines behind a part that is not counted yet are left alone."""
+        known, last = len(self.counts), int(stops[-1]) // _PIECE
+        if start <= known * _PIECE and known <= last:
+            begins = np.arange(known, last + 1) * _PIECE
+            counts = line - 1 + np.searchsorted(stops, begins, side="right")
+            self.counts = np.concatenate([self.counts, counts])
 
     def _count(self, last: int) -> None:
         known, last = len(self.counts), min(last, len(self.data) // _PIECE)

@@ -33,7 +33,7 @@ from ncscope.trajectory import Stretch, Trajectory
 from ncscope.transitions import Transitions
 
 if TYPE_CHECKING:
-    from ncscope.language.scanner import Scanner
+    from ncscope.channel.bulk import BulkLane
 
 BULK_FROM = 70_000
 """Characters from which the compiled bulk lane is worth the time of its loading."""
@@ -221,7 +221,7 @@ class _Loop:
         self.returned: Return | None = None
         self.calls: tuple[CallRequest, ...] = ()
         self.watch: Watch | None = None
-        self.scanner: Scanner | None = None
+        self.bulk_lane: BulkLane | None = None
         self.loops = LoopLane() if options.bulk is not False else None
         long = len(source) >= BULK_FROM
         self.bulk = long if options.bulk is None else options.bulk
@@ -244,7 +244,6 @@ class _Loop:
         self.add(_record(self.transitions, before, step, block))
         self.ended, self.returned, self.calls = step.ended, step.returned, step.calls
         if step.state.axes is not before.axes:
-            self.scanner = None
             self.recorder.split()
             self.channels.append((self.recorder.moves, step.state.axes))
 
@@ -274,29 +273,21 @@ class _Loop:
         """All plain blocks that follow, in the bulk lane."""
         if not self.bulk or reader.in_area or self.transitions.waiting is not None:
             return
-        if not self.state.modal.plain:
-            return
-        from ncscope.channel.bulk import advance
-        from ncscope.language.scanner import Scanner
+        if self.bulk_lane is None:
+            from ncscope.channel.bulk import BulkLane
 
-        if self.scanner is None:
-            turning = [axis for axis, _, _ in self.state.coordinates.modulo.ranges]
-            self.scanner = Scanner(self.source.data, self.state.axis_names, turning)
-        line = self.source.position(reader.at)[0]
+            self.bulk_lane = BulkLane(self.source, self.machine.settings.modulo_shortest)
         while True:
-            rows = self.scanner.scan(reader.at, line)
-            left = self.options.max_blocks - self.count if self.options.max_blocks else len(rows)
-            if min(len(rows), left) == 0:
+            left = self.options.max_blocks - self.count if self.options.max_blocks else None
+            start, taken = (
+                self.state.position.program,
+                self.bulk_lane.take(reader, self.state, left),
+            )
+            if taken is None:
                 return
-            start = self.state.position.program
-            shortest = self.machine.settings.modulo_shortest
-            self.state, stretch, ways = advance(self.state, rows, self.source.name, left, shortest)
-            if stretch is None:
-                return
-            self.recorder.extend(stretch, start, ways)
-            self.count += len(stretch)
-            reader.skip_to(int(rows.stops[len(stretch) - 1]))
-            line = int(stretch.line[-1]) + 1
+            self.state = taken.state
+            self.recorder.extend(taken.stretch, start, taken.ways)
+            self.count += len(taken.stretch)
             self.report(reader.at)
             self.source.forget(reader.at)
 

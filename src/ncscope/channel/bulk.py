@@ -16,40 +16,73 @@ import numpy as np
 from ncscope.channel.modulo import way_to
 from ncscope.channel.state import Position, State
 from ncscope.compilation import compiled
+from ncscope.diagnostics import Source
 from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
-from ncscope.language.scanner import PlainRows
+from ncscope.language import BlockReader
+from ncscope.language.scanner import PlainRows, Scanner
 from ncscope.levels import in_range
+from ncscope.machine import Axis
 from ncscope.motion import MOTIONS
-from ncscope.recording import NO_WAYS
 from ncscope.trajectory import Stretch
 
 
-class Advance(NamedTuple):
-    """The state after some rows and their moves; no stretch when the first row is for the step
-    lane. ways: row -> where the path leads before modulo axes are wrapped, where that differs."""
+class Taken(NamedTuple):
+    """Some plain blocks: their moves and the state behind them.
+
+    ways: row -> where the path leads before modulo axes are wrapped, where that differs.
+    """
 
     state: State
-    stretch: Stretch | None = None
-    ways: Mapping[int, Array] = NO_WAYS
+    stretch: Stretch
+    ways: Mapping[int, Array]
 
 
-def advance(state: State, rows: PlainRows, file: str, limit: int, shortest: bool) -> Advance:
-    """Rows of plain blocks, at most `limit`; the stretch says how many were taken.
+class BulkLane:
+    """Takes the plain blocks of one program.
 
     shortest: modulo axes take the short way whatever their sign says (P-CHAN-00346).
     """
-    n = min(len(rows), limit)
+
+    def __init__(self, source: Source, shortest: bool) -> None:
+        self._source, self._shortest = source, shortest
+        self._axes: tuple[Axis, ...] = ()
+        self._scanner: Scanner | None = None
+
+    def take(self, reader: BlockReader, state: State, limit: int | None) -> Taken | None:
+        """The plain blocks where the reader stands, at most `limit`; None where the next block is
+        for the step lane. The reader goes on behind them."""
+        if not state.modal.plain:
+            return None
+        begin = reader.at
+        rows = self._scanner_for(state).scan(begin, self._source.position(begin)[0])
+        left = len(rows) if limit is None else min(len(rows), limit)
+        taken = advance(state, rows, self._source.name, left, self._shortest) if left else None
+        if taken is not None:
+            n, first = len(taken.stretch), int(rows.line[0])
+            reader.skip_to(int(rows.stops[n - 1]))
+            if int(rows.line[n - 1]) - first == n - 1:  # no blank line between
+                self._source.learn(begin, rows.stops[:n], first)
+        return taken
+
+    def _scanner_for(self, state: State) -> Scanner:
+        if self._scanner is None or self._axes is not state.axes:
+            turning = [axis for axis, _, _ in state.coordinates.modulo.ranges]
+            self._axes = state.axes
+            self._scanner = Scanner(self._source.data, state.axis_names, turning)
+        return self._scanner
+
+
+def advance(state: State, rows: PlainRows, file: str, n: int, shortest: bool) -> Taken | None:
+    """The first n rows; the stretch says how many were taken, None stands for none."""
     motion = _filled_codes(rows.motion[:n], MOTIONS.index(state.modal.motion))
     absolute = _filled_codes(rows.absolute[:n], int(state.modal.absolute))
     feed = _filled_feed(state, rows.feed[:n])
     n = _before_warning(state, motion, feed, n)
-    if n == 0:
-        return Advance(state)
     program, ways = _programmed(state, rows.values[:n], absolute[:n], shortest)
-    axes, n = _axes(state, program)
+    axes, n = _axes(state, program) if n else (program, 0)
     if n == 0:
-        return Advance(state)
+        return None
     stretch = Stretch(
         state.coordinates,
         state.axis_names,
@@ -63,11 +96,8 @@ def advance(state: State, rows: PlainRows, file: str, limit: int, shortest: bool
         state.position.axes,
     )
     turned = np.flatnonzero((ways[:n] != program[:n]).any(axis=1)) if ways is not program else ()
-    return Advance(
-        _state_after(state, stretch, bool(absolute[n - 1])),
-        stretch,
-        {int(row): ways[row] for row in turned},
-    )
+    after = _state_after(state, stretch, bool(absolute[n - 1]))
+    return Taken(after, stretch, {int(row): ways[row] for row in turned})
 
 
 def _programmed(state: State, values: Array, absolute, shortest: bool) -> tuple[Array, Array]:
