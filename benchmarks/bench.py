@@ -10,6 +10,7 @@ that cannot be had is named with the reason; its row stays empty.
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import os
 import platform
@@ -160,23 +161,29 @@ def _small(options: argparse.Namespace) -> list[Row]:
 
 def _long(options: argparse.Namespace) -> list[Row]:
     """Ten times the blocks: time grows with the length, memory does not."""
-    whole, half = (_long_runs(blocks, options) for blocks in (options.long, options.long // 2))
-    first = statistics.median(t["wall"] for t in half)
-    second = statistics.median(t["wall"] for t in whole) - first
-    start = statistics.median(t["wall"] for t in _long_runs(1000, options))
-    name = f"ncscope run --out x.parquet, {options.long} blocks"
-    growth = f"{second / (first - start):.3f}"
-    return [*_process_rows(name, whole), (f"{name}: second half against first", growth, "times")]
+    lengths = (options.long // 10, options.long // 2, options.long)
+    paths = [str(_long_program(blocks)) for blocks in lengths]
+    timed = [_long_run(paths[-1]) for _ in range(options.runs)]
+    rows = _process_rows(f"ncscope run --out x.parquet, {options.long} blocks", timed)
+    found = [_measure("growth", "ca_head", *paths) for _ in range(options.runs)]
+    for (few, first), (many, second) in itertools.pairwise(zip(lengths, paths, strict=True)):
+        further = [(f[second] - f[first]) / (many - few) * 1e6 for f in found]
+        name = f"five_axis: each further million from {few} to {many} blocks"
+        rows.append((name, _range(further, 3), "s"))
+    return rows
 
 
-def _long_runs(blocks: int, options: argparse.Namespace) -> list[dict[str, float]]:
+def _long_program(blocks: int) -> Path:
     path = WORK / f"five_axis_{blocks}.nc"
     if not path.exists():
         write("five_axis", blocks, path)
+    return path
+
+
+def _long_run(path: str) -> dict[str, float]:
     out = WORK / "out.parquet"
     ca_head = str(ROOT / "examples" / "machines" / "ca_head")
-    command = _ncscope("run", str(path), "-m", ca_head, "--out", str(out))
-    timed = [_process(command) for _ in range(options.runs)]
+    timed = _process(_ncscope("run", path, "-m", ca_head, "--out", str(out)))
     out.unlink(missing_ok=True)
     return timed
 

@@ -1,6 +1,7 @@
 """One measurement in a process of its own; prints one JSON object.
 
     python benchmarks/measure.py run MACHINE PROGRAM        text to PCS and ACS, first and later
+    python benchmarks/measure.py growth MACHINE PROGRAM ..  seconds of longer and longer programs
     python benchmarks/measure.py output MACHINE PROGRAM FMT csv, jsonl or parquet of a run
     python benchmarks/measure.py kernels                    poses a second, one core
     python benchmarks/measure.py limits PROGRAM             what the stages are to be held against
@@ -75,6 +76,23 @@ def run(name: str, program: str) -> dict[str, Any]:
     later = [timed(once) for _ in range(4)]
     moves = once.moves  # type: ignore[attr-defined]
     return {"moves": moves, "first": first, "later": later, "peak": memory}
+
+
+def growth(name: str, *programs: str) -> dict[str, float]:
+    """Seconds of a run of each program whose moves are not kept, by program."""
+    import ncscope
+
+    lists = machine(name)
+
+    def drop(stretch: Any) -> None:
+        pass
+
+    def once(program: str) -> None:
+        result = ncscope.run(lists, ncscope.load_program(program), sink=drop)
+        assert result.ok, result.diagnostics
+
+    once(programs[0])
+    return {program: timed(lambda p=program: once(p))["wall"] for program in programs}
 
 
 def output(name: str, program: str, shape: str) -> dict[str, Any]:
