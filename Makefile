@@ -41,6 +41,7 @@ docs: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python benchmarks/bench.py --long 10000000
+	$(BIN)/python benchmarks/loop.py
 
 # The scripts of the workbench: needs node and npm; the result is checked in.
 workbench-js:
