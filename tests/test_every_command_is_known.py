@@ -16,7 +16,7 @@ import pytest
 import ncscope
 from ncscope import docs
 from ncscope.channel.gfunctions import GFUNCTIONS
-from ncscope.language.commands import COMMANDS, lookup
+from ncscope.language.commands import COMMANDS, READING, lookup
 from ncscope.language.vocabulary import WORDS, word_entry
 from ncscope.machine import Machine
 
@@ -105,6 +105,13 @@ def test_command_without_effect_is_noted_once(row) -> None:
     notes = [d for d in result.diagnostics if d.id == "N2002"]
     assert len(notes) == 1 and row.name in notes[0].message
     assert result.acs[:, 0].tolist() == [1, 2]
+
+
+@pytest.mark.parametrize("name", sorted(READING))
+def test_a_command_that_asks_the_machine_says_that_its_answer_is_not_known(name: str) -> None:
+    result = ncscope.run(Machine(), f"P1=7\n#{name} [ID1 P=P1]\nXP1\nM30\n").check()
+    (note,) = [d for d in result.diagnostics if d.id == "N2002"]
+    assert "answer is not known" in note.message and result.acs[0, 0] == 7
 
 
 KEYWORDS = [w.name for w in WORDS if w.kind == "refused" and not w.name.startswith("V.")]

@@ -22,7 +22,7 @@ from ncscope.channel.words import Words, collect_axes, cycle_letter, refuse_path
 from ncscope.diagnostics import Diagnostic, diagnostic
 from ncscope.kinematics.step import KinematicsError
 from ncscope.language import tree
-from ncscope.language.commands import SMOOTHING, lookup
+from ncscope.language.commands import READING, SMOOTHING, lookup
 from ncscope.machine import Machine
 from ncscope.motion import Move
 from ncscope.motion.corners import Corner
@@ -127,6 +127,10 @@ def _command(draft: Draft, command: tree.HashCommand, block: tree.Block) -> None
     row = lookup(command.name)
     if command.name in COMMANDS:
         COMMANDS[command.name](draft, command)
+    elif command.name in READING:
+        what = f"#{command.name} asks the machine, and its answer is not known here"
+        hint = "the variables that it writes keep their values"
+        draft.warn("N2002", command.span, what, hint)
     elif row is not None and row.kind == "no effect":
         what = "has no effect on positions"
         if command.name in SMOOTHING:

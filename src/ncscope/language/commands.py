@@ -326,5 +326,8 @@ COMMANDS: tuple[Command, ...] = (
 SMOOTHING = frozenset({"HSC", "HSC ON", "CONTOUR MODE", "FILTER", "FILTER ON"})
 """Commands without effect on positions that change the path between them."""
 
+READING = frozenset({"SIGNAL READ", "IDENT RD", "TOOL LIFE READ", "GET WCS POSLIMIT", "FILE EXIST"})
+"""Commands that ask the machine; what they write into variables is not known offline."""
+
 _BY_NAME = {command.name: command for command in COMMANDS}
 _LONGEST = max(len(name.split()) for name in _BY_NAME)
