@@ -24,6 +24,9 @@ SHOWN_EVERY = 1000
 
 def show_diagnostics(items: Iterable[Diagnostic]) -> None:
     """Diagnostics with their place on standard error."""
+    items = tuple(items)
+    if not items:  # rich is not loaded for nothing
+        return
     from ncscope.diagnostics import render
 
     colours = {"error": "red", "warning": "yellow", "note": "cyan"}
