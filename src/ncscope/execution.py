@@ -352,6 +352,7 @@ class _Loop:
             tuple(self.recorder.axes) or self.state.axis_names,
             messages=tuple(self.messages),
             channels=tuple((self.recorder.rows_of(moves), axes) for moves, axes in self.channels),
+            nearest_to_pole=self.inspector.nearest,
             _places=self.recorder.places,
             _file=self.source.name,
         )

@@ -114,6 +114,8 @@ class Trajectory:
     axes: every axis name that was in the channel, in order of appearance. messages: what the
     program wrote. diagnostics: in the order they arose. ok: the program ran to its end.
     channels: the axes of the channel, each set with the row from which it counts.
+    nearest_to_pole: smallest angle, degrees, of the tool to its singular direction at the end of
+    a move, with file and line; None without such a direction.
     """
 
     stretches: tuple[Stretch, ...]
@@ -122,6 +124,7 @@ class Trajectory:
     messages: tuple[Any, ...] = ()
     ok: bool = True
     channels: tuple[tuple[int, tuple[Axis, ...]], ...] = ()
+    nearest_to_pole: tuple[float, tuple[str, int]] | None = None
     _places: Mapping[int, Visit] = field(default_factory=dict, repr=False)
     _file: str = ""
 

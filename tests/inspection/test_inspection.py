@@ -326,12 +326,13 @@ def test_a_swing_over_several_blocks_says_so():
     assert found.line == 3 and "swings by 360.0 degrees in 2 blocks while" in found.message
 
 
-def test_check_says_where_the_tool_is_nearest_to_the_pole(tmp_path, monkeypatch):
+@pytest.mark.parametrize("command", [["check"], ["run"], ["run", "--out", "p.csv"]])
+def test_check_and_run_say_where_the_tool_is_nearest_to_the_pole(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("p.nc").write_text("#TRAFO [91]\nG00 X0 C0 A30\nG01 F1 A-12.5\nA40\n#TRAFO OFF\nM30\n")
     machine = Path(__file__).parents[2] / "examples" / "machines" / "kin9_head"
-    done = CliRunner().invoke(app, ["check", "p.nc", "--machine", str(machine)])
+    done = CliRunner().invoke(app, [*command, "p.nc", "--machine", str(machine)])
     said = done.stderr + done.stdout
     assert "p.nc:3:1: note N4104: the tool comes nearest" in said and "here: 12.5000 deg" in said
     Path("p.nc").write_text("G00 X0\nM30\n")
-    assert "N4104" not in CliRunner().invoke(app, ["check", "p.nc"]).stderr
+    assert "N4104" not in CliRunner().invoke(app, [*command, "p.nc"]).stderr

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ncscope.cli.inputs import run_program
+from ncscope.cli.inputs import pole_note, run_program
 from ncscope.cli.options import (
     FoldersOption,
     KinematicsOption,
@@ -21,8 +20,7 @@ from ncscope.cli.screen import fail, show_diagnostics
 from ncscope.cli.settings import read_settings
 
 if TYPE_CHECKING:
-    from ncscope.diagnostics import Diagnostic, Source
-    from ncscope.trajectory import Trajectory
+    from ncscope.diagnostics import Diagnostic
 
 
 def check_command(
@@ -52,30 +50,8 @@ def check_command(
                 path, machine, options, probe, folders or (), kinematics, manual
             )
             found.extend([*(d for d in more if d.severity != "note"), *result.diagnostics])
-            found.extend(_nearest_to_pole(result, source.source))
+            found.extend(pole_note(result, source.source))
     show_diagnostics(found)
     counts = {s: sum(d.severity == s for d in found) for s in ("error", "warning", "note")}
     typer.echo(", ".join(f"{n} {s}{'' if n == 1 else 's'}" for s, n in counts.items()))
     raise typer.Exit(1 if counts["error"] or (strict and counts["warning"]) else 0)
-
-
-def _nearest_to_pole(result: Trajectory, source: Source) -> Iterator[Diagnostic]:
-    """N4104 at the move whose end is nearest to the singular direction."""
-    import numpy as np
-
-    from ncscope.diagnostics import Span, diagnostic
-    from ncscope.inspection import place, pole_distance
-
-    distance = pole_distance(result)
-    if np.isnan(distance).all():
-        return
-    nearest = int(np.nanargmin(distance))
-    file, line, _ = place(result, nearest)
-    span, where = None, f" ({file}:{line})"
-    if file == source.name:
-        start = source.line_start(line)
-        span, where = Span(source, start, start + len(source.line_text(line))), ""
-    message = (
-        f"the tool comes nearest to its singular direction here: {distance[nearest]:.4f} degrees"
-    )
-    yield diagnostic("N4104", span, message + where)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ncscope.channel.given import GivenRows
-    from ncscope.diagnostics import Diagnostic
+    from ncscope.diagnostics import Diagnostic, Source
     from ncscope.machine import Machine
     from ncscope.program import Options, Program, Sink
     from ncscope.trajectory import Trajectory
@@ -126,3 +126,18 @@ def read_machine(
     except OSError as error:
         fail(f"cannot read {kinematics}: {error.strerror}")
     return machine, [*found, *problems]
+
+
+def pole_note(result: Trajectory, source: Source) -> tuple[Diagnostic, ...]:
+    """N4104 at the move whose end is nearest to the singular direction; nothing without one."""
+    from ncscope.diagnostics import Span, diagnostic
+
+    if result.nearest_to_pole is None:
+        return ()
+    distance, (file, line) = result.nearest_to_pole
+    span, where = None, f" ({file}:{line})"
+    if file == source.name:
+        start = source.line_start(line)
+        span, where = Span(source, start, start + len(source.line_text(line))), ""
+    message = f"the tool comes nearest to its singular direction here: {distance:.4f} degrees"
+    return (diagnostic("N4104", span, message + where),)

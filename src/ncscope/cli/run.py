@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ncscope.cli.inputs import read_inputs
+from ncscope.cli.inputs import pole_note, read_inputs
 from ncscope.cli.options import (
     BlocksOption,
     ClampOption,
@@ -88,7 +88,8 @@ def run_command(
         axes, sampled = inputs.machine.axis_names, sample is not None
         result, ok = write_run(shape, out, cores, axes, sampled, found, inputs.run, judge)
     if shape is not Format.JSONL:
-        show_diagnostics([*found, *result.diagnostics])
+        near = pole_note(result, inputs.program.source)
+        show_diagnostics([*found, *result.diagnostics, *near])
     if shape is Format.TABLE:
         _show_run(result, ok)
     raise typer.Exit(0 if ok else 1)

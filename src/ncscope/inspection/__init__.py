@@ -148,6 +148,8 @@ class Inspector:
         self._swings: list[Swing] = []
         self._wraps: list[Wrap] = []
         self._places: dict[int, Place] = {}
+        self.nearest: tuple[float, Place] | None = None
+        """Smallest angle of the tool to its singular direction at the end of a move, degrees."""
 
     def see(self, s: Stretch, axes: tuple[Axis, ...]) -> None:
         """The next moves, with the axes of the channel at them."""
@@ -159,7 +161,10 @@ class Inspector:
             self._travel[axis] = seen if known is None else joined(known, seen)
             self._remember(s, (int(rows[0]) for rows in (seen.below, seen.above) if len(rows)))
         pole = pole_of(s)
-        swings = [] if pole is None else swings_in(pole, s, row)
+        swings: list[Swing] = []
+        if pole is not None:
+            swings, nearest = swings_in(pole, s, row)
+            self._meet(s, nearest, float(pole.distance(s.acs[nearest, pole.second])))
         wraps = wraps_in(s, axes, row)
         self._remember(s, [*(swing.row for swing in swings), *(wrap.row for wrap in wraps)])
         self._swings = continued(self._swings, swings)
@@ -170,6 +175,10 @@ class Inspector:
         """What was seen; the result with or without its moves."""
         travel, swings = tuple(self._travel.values()), far_enough(self._swings)
         return Inspection(result, travel, swings, tuple(self._wraps), self._places)
+
+    def _meet(self, s: Stretch, nearest: int, distance: float) -> None:
+        if self.nearest is None or distance < self.nearest[0]:
+            self.nearest = distance, (s.file, int(s.line[nearest]))
 
     def _remember(self, s: Stretch, rows: Iterable[int]) -> None:
         for row in rows:

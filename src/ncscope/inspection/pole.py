@@ -63,14 +63,15 @@ def pole_of(s: Stretch) -> Pole | None:
     return Pole.of(active.model)
 
 
-def swings_in(pole: Pole, s: Stretch, row: int) -> list[Swing]:
+def swings_in(pole: Pole, s: Stretch, row: int) -> tuple[list[Swing], int]:
     """Runs of moves in which the first rotary axis turns far and the tool direction does not.
 
-    A run at the first or last move may go on in another stretch, so it may be a short one.
+    A run at the first or last move may go on in another stretch, so it may be a short one. The
+    second result is the move of the stretch that ends nearest to the pole.
     """
-    moves = pole.turning(s.start, s.acs, SMALLEST_SWING, NEAR_POLE, SWING_RATIO)
+    moves, nearest = pole.turning(s.start, s.acs, SMALLEST_SWING, NEAR_POLE, SWING_RATIO)
     if len(moves) == 0:
-        return []
+        return [], nearest
     start = np.where(moves[:, None] > 0, s.acs[moves - 1], s.start)
     end = s.acs[moves]
     turn = end[:, pole.first] - start[:, pole.first]
@@ -86,17 +87,18 @@ def swings_in(pole: Pole, s: Stretch, row: int) -> list[Swing]:
     bad = (distance < NEAR_POLE) & far & (change > SAME_DIRECTION)
     moves, distance, turn = moves[bad], distance[bad], turn[bad]
     if len(moves) == 0:
-        return []
+        return [], nearest
     runs = np.append(0, np.flatnonzero(np.diff(moves) > 1) + 1)
     sums = np.add.reduceat(turn, runs)
     least = np.minimum.reduceat(distance, runs)
     ends = np.append(runs[1:], len(moves)) - 1
     name = s.axes[pole.first]
-    return [
+    found = [
         Swing(name, row + int(moves[a]), row + int(moves[b]), float(d), float(t))
         for a, b, d, t in zip(runs, ends, least, sums, strict=True)
         if t >= SMALLEST_SWING or moves[a] == 0 or moves[b] == len(s) - 1
     ]
+    return found, nearest
 
 
 def continued(known: list[Swing], found: Iterable[Swing]) -> list[Swing]:

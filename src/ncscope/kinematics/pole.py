@@ -68,17 +68,20 @@ class Pole:
         cosine = middle + sway * np.cos(np.deg2rad(second - self.turning_point))
         return np.rad2deg(np.arccos(np.minimum(np.abs(cosine), 1.0)))
 
-    def turning(self, start: Array, axes: Array, turn: float, near: float, ratio: float) -> Rows:
+    def turning(
+        self, start: Array, axes: Array, turn: float, near: float, ratio: float
+    ) -> tuple[Rows, int]:
         """The moves (k,) that turn the first axis by `turn` degrees or more, or begin or end
         nearer than `near` degrees to the singular direction and may turn it `ratio` times more
         than they turn the tool.
 
         start: (n,) axis values before the first move. axes: (m, n) at the end of each. Where the
         tool turns at least as far as it comes nearer to the axis, only that is compared.
+        The second result is the move whose end is nearest to the singular direction.
         """
         middle, sway = self._cosine
         found = np.zeros(len(axes), np.bool_)
-        _turning(
+        nearest = _turning(
             np.require(start, requirements=["C", "W"]),
             np.require(axes, requirements=["C", "W"]),
             (self.first, self.second),
@@ -86,7 +89,7 @@ class Pole:
             not self.model.rtcp,
             found,
         )
-        return np.flatnonzero(found)
+        return np.flatnonzero(found), int(nearest)
 
     @property
     def _cosine(self) -> tuple[float, float]:
@@ -137,10 +140,11 @@ class Pole:
 
 @compiled
 def _turning(start, axes, columns, bounds, short_way, found):
-    """Marks the moves of `Pole.turning`; short_way: a turn is never more than 180 degrees."""
+    """Marks the moves of `Pole.turning`, and gives the one that ends nearest to the pole;
+    short_way: a turn is never more than 180 degrees."""
     first, second = columns
     turning_point, middle, sway, far, near, ratio = bounds
-    before = start[first]
+    before, nearest, largest = start[first], 0, -1.0
     cosine_before = middle + sway * sincos_deg(start[second] - turning_point)[1]
     for row in range(axes.shape[0]):
         turn = axes[row, first] - before
@@ -152,7 +156,10 @@ def _turning(start, axes, columns, bounds, short_way, found):
         if turn > 0.0 and turn < far and max(abs(cosine), abs(cosine_before)) > near:
             nearer = _angle(cosine) - _angle(cosine_before)
             found[row] = turn + _ROUNDING_DEG >= ratio * abs(nearer)
+        if abs(cosine) > largest:
+            nearest, largest = row, abs(cosine)
         before, cosine_before = axes[row, first], cosine
+    return nearest
 
 
 @compiled
