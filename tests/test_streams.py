@@ -132,3 +132,23 @@ def test_a_run_that_is_broken_off_leaves_a_valid_file(tmp_path, shape):
 def test_what_cannot_be_written(program, arguments, said):
     found = call("run", program, "-m", HEAD, *arguments)
     assert found.exit_code == 2 and said in found.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a file that is always full")
+@pytest.mark.parametrize("shape", ["table", "csv", "jsonl"])
+def test_output_on_a_full_disk_is_said_in_one_line(program, shape):
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, *CODE, "run", str(program), "-m", HEAD, "--format", shape]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    assert "ncscope: cannot write the output: No space left on device" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_process_without_standard_output_ends_well(program, tmp_path):
+    out = tmp_path / "out.csv"
+    command = [sys.executable, *CODE, "run", str(program), "-m", HEAD, "--out", str(out)]
+    closed = ["sh", "-c", 'exec "$@" >&-', "sh", *command]
+    done = subprocess.run(closed, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, "Traceback" in done.stderr) == (0, False), done.stderr
+    assert len(out.read_text().splitlines()) == 3001

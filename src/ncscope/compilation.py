@@ -10,11 +10,9 @@ disk; only the first run on a machine compiles, and `when_compiling` tells of it
 
 from __future__ import annotations
 
-import sys
 import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from importlib import import_module
+from collections.abc import Callable
+from functools import cache
 from typing import Any, TypeVar, cast
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -89,12 +87,7 @@ _listeners: list[Callable[[], None]] = []
 def _load() -> None:
     if not _all_waiting:  # another thread was faster
         return
-    with _without_scipy():
-        import_module("numba.np.arraymath")
-    from numba import njit
-
-    options: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
-    _loaded.append(njit(**options))
+    _loaded.append(_machine_code)
     for waiting in _all_waiting:
         waiting.code = _loaded[0](waiting.function)
     for waiting in _all_waiting:
@@ -104,16 +97,28 @@ def _load() -> None:
     _listen()
 
 
-@contextmanager
-def _without_scipy() -> Iterator[None]:
-    """numba loads scipy only to see whether `np.cov` could be compiled; that takes longer than
-    everything else it loads."""
-    absent = "scipy" not in sys.modules and sys.modules.setdefault("scipy", cast(Any, None)) is None
-    try:
-        yield
-    finally:
-        if absent:
-            del sys.modules["scipy"]
+def _machine_code(function: Callable[..., Any]) -> Callable[..., Any]:
+    from numba import njit
+
+    options: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
+    dispatcher = njit(**options)(function)
+    if hasattr(dispatcher._cache, "_load_overload"):
+        dispatcher._cache = _quick_cache()(function)
+    return dispatcher
+
+
+@cache
+def _quick_cache() -> type:
+    """numba's cache, without the tables of all that numba can compile: code from disk needs
+    none of them, and they take longer to fill than numba to load."""
+    from numba.core.caching import FunctionCache
+
+    class QuickCache(FunctionCache):
+        def load_overload(self, sig: Any, target_context: Any) -> Any:
+            with self._guard_against_spurious_io_errors():
+                return self._load_overload(sig, target_context)
+
+    return QuickCache
 
 
 def _listen() -> None:

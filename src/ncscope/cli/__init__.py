@@ -1,19 +1,20 @@
 """The command line: arguments to API to views, nothing else.
 
-One module per command; `screen`, `options` and `inputs` hold what they share.
+One module per command; `screen`, `options` and `inputs` hold what they share,
+`ending` is how the process ends.
 Exit codes: 0 the program ran, 1 it ended with an error, 2 the command was used wrongly.
 """
 
 from __future__ import annotations
 
-import sys
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 
 from ncscope import __version__
 from ncscope.cli.check import check_command
 from ncscope.cli.convert import convert_command
+from ncscope.cli.ending import end_with
 from ncscope.cli.explain import explain_command
 from ncscope.cli.kin import kin_app
 from ncscope.cli.plot import plot_command
@@ -55,13 +56,7 @@ def _root(
     """Options of ncscope itself."""
 
 
-def main() -> None:
-    """Entry point; a broken pipe or Ctrl-C ends without a traceback."""
+def main() -> NoReturn:
+    """Entry point; a broken pipe, a full disk or Ctrl-C end without a traceback."""
     announce_compiling()
-    try:
-        app()
-    except KeyboardInterrupt:
-        sys.exit(130)
-    except BrokenPipeError:
-        sys.stderr.close()
-        sys.exit(0)
+    end_with(app)
