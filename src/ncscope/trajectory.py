@@ -26,8 +26,7 @@ from ncscope.motion import MOTIONS
 from ncscope.motion.paths import Paths
 from ncscope.motion.turning import TurningPoints
 
-PARQUET: Mapping[str, Any] = {"compression": "snappy", "use_dictionary": ["motion"]}
-"""Coordinates rarely repeat: a dictionary of them costs time and saves nothing."""
+SYSTEMS = ("pcs", "wcs", "mcs", "acs")
 NO_BLOCK = -1
 """In the column `block`: the line has no N number."""
 
@@ -77,22 +76,29 @@ class Stretch:
         """The columns of `Trajectory.to_arrow`; an axis that was not in the channel is NaN."""
         import pyarrow as pa
 
-        motions = pa.DictionaryArray.from_arrays(pa.array(self.motion), pa.array(MOTIONS))
         columns = {
             "line": pa.array(self.line),
             "block": pa.array(self.block),
-            "motion": motions.cast(pa.string()),
+            "motion": _names(self.motion),
             "feed": pa.array(self.feed),
         }
         if sampled:
             columns["end"] = pa.array(self.end)
-        missing = np.full(len(self), np.nan)
-        for name in ("pcs", "wcs", "mcs", "acs"):
-            rows = dict(zip(self.axes, np.ascontiguousarray(getattr(self, name).T), strict=True))
-            columns |= {f"{name}_{axis}": pa.array(rows.get(axis, missing)) for axis in axes}
-        direction = [missing] * 3 if self.direction is None else self.direction.T.copy()
-        columns |= {f"direction_{c}": pa.array(direction[i]) for i, c in enumerate("ijk")}
-        return pa.table(columns)
+        names = [f"{name}_{axis}" for name in SYSTEMS for axis in axes]
+        names += [f"direction_{c}" for c in "ijk"]
+        rows = zip(names, self._rows(axes), strict=True)
+        return pa.table(columns | {name: pa.array(row) for name, row in rows})
+
+    def _rows(self, axes: tuple[str, ...]) -> Array:
+        """(4 len(axes) + 3, m): the four systems and the direction, one row a column of the
+        table, in one piece of memory: many small ones take longer to be had than to be filled."""
+        rows = np.full((len(SYSTEMS) * len(axes) + 3, len(self)), np.nan)
+        at = [axes.index(axis) for axis in self.axes]
+        for i, name in enumerate(SYSTEMS):
+            rows[i * len(axes) :][at] = getattr(self, name).T
+        if self.direction is not None:
+            rows[-3:] = self.direction.T
+        return rows
 
     @cached_property
     def mcs(self) -> Array:
@@ -279,7 +285,8 @@ class Trajectory:
         if path.suffix not in (".parquet", ".csv"):
             raise ValueError(f"{path.name}: the name must end in .parquet or .csv")
         if path.suffix == ".parquet":
-            pyarrow.parquet.write_table(self.to_arrow(), path, **PARQUET)
+            table = self.to_arrow()
+            pyarrow.parquet.write_table(table, path, **parquet_options(table.schema))
         else:
             pyarrow.csv.write_csv(self.to_arrow(), path)
 
@@ -330,3 +337,28 @@ def no_moves(axes: tuple[str, ...]) -> Stretch:
     motion = np.empty(0, dtype=np.int8)
     start = np.zeros(len(axes))
     return Stretch(Coordinates(len(axes)), axes, "", lines, lines, motion, none, rows, rows, start)
+
+
+def parquet_options(schema: Any) -> dict[str, Any]:
+    """How the columns of a table are written. Coordinates rarely repeat, so a dictionary of them
+    would be as long as they are; their bytes are put together by place, of which the upper ones
+    hardly change from move to move."""
+    encodings = {"double": "BYTE_STREAM_SPLIT", "int64": "DELTA_BINARY_PACKED"}
+    kinds = {field.name: str(field.type) for field in schema}
+    return {
+        "compression": "snappy",
+        "use_dictionary": ["motion"],
+        "column_encoding": {n: encodings[k] for n, k in kinds.items() if k in encodings},
+    }
+
+
+def _names(codes: NDArray[np.int8]) -> Any:
+    """The names of motions as an Arrow array of strings, without loading Arrow's functions."""
+    import pyarrow as pa
+
+    padded = np.array(MOTIONS, dtype="S")
+    letters = padded.view(np.uint8).reshape(len(MOTIONS), -1)[codes]
+    ends = np.zeros(len(codes) + 1, dtype=np.int32)
+    np.cumsum(np.char.str_len(padded)[codes], out=ends[1:])
+    text = letters[letters != 0]
+    return pa.StringArray.from_buffers(len(codes), pa.py_buffer(ends), pa.py_buffer(text))

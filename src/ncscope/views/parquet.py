@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ncscope.trajectory import PARQUET, Stretch, Trajectory
+from ncscope.trajectory import Stretch, Trajectory, parquet_options
 from ncscope.views.records import NewAxis
 
 ROWS = 65_536
@@ -23,7 +23,7 @@ class ParquetWriter:
 
         self.axes, self.sampled = axes, sampled
         empty = no_moves(axes).to_arrow(axes, sampled)
-        self._file = Arrow(path, empty.schema, **PARQUET)
+        self._file = Arrow(path, empty.schema, **parquet_options(empty.schema))
         self._waiting: list[Any] = []
 
     def write(self, stretch: Stretch) -> None:

@@ -20,12 +20,11 @@ from numpy.typing import NDArray
 from ncscope.diagnostics import Diagnostic
 from ncscope.frames import Array
 from ncscope.motion import MOTIONS
-from ncscope.trajectory import Stretch, Trajectory
+from ncscope.trajectory import SYSTEMS, Stretch, Trajectory
 from ncscope.views.splicing import Template
 
 ROWS = 20_000
 """Moves that are turned into text at a time."""
-SYSTEMS = ("pcs", "wcs", "mcs", "acs")
 Lines = NDArray[np.uint8] | bytes
 """Text in UTF-8."""
 
