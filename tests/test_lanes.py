@@ -1,5 +1,6 @@
 """Both lanes have one meaning: the same moves, diagnostics and end, however a program is cut."""
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ncscope
-from ncscope.execution import Options
+from ncscope.execution import Options, execute
+from ncscope.inspection import inspect
 from ncscope.machine import Axis, Machine, OffsetRecord, ZeroOffsets
 
 MACHINES = Path(__file__).parents[1] / "examples" / "machines"
@@ -140,11 +142,131 @@ def test_lanes_agree_on_modulo_axes(lines, turns, shortest, kinematics, sample):
     assert_equal(machine, text, sample=sample)
 
 
-def test_modulo_axes_do_take_the_bulk_lane():
+@pytest.fixture
+def stepped(monkeypatch):
+    """The lines that the step lane takes."""
+    lines = []
+
+    def counted(machine, state, block):
+        lines.append(block.span.line)
+        return execute(machine, state, block)
+
+    monkeypatch.setattr(ncscope.execution, "execute", counted)
+    return lines
+
+
+def test_modulo_axes_do_take_the_bulk_lane(stepped):
     text = "G1 F100 C0\n" + "".join(f"N{i} C{i * 7 % 360}\n" for i in range(200)) + "M30\n"
     result = ncscope.run(TURNING, text, Options(bulk=True))
-    assert len(result.stretches) == 1
+    assert stepped == [202]
     assert result.pcs[200, 3] == 199 * 7 % 360
+
+
+LIMITED = replace(
+    FLAT, axes=tuple(replace(axis, limits=(-30.0, 30.0)) for axis in FLAT.axes[:3]) + FLAT.axes[3:]
+)
+SMALL = st.integers(-400, 400).map(lambda v: f"{v / 10:g}")
+ANGLE = st.sampled_from([0, 30, 45, 90, 120, 180, 200, 270, 300, 359])
+
+
+@st.composite
+def circles(draw):
+    """Blocks with arcs of which most are right: the ends lie on a circle about the centre, some a
+    little beside it; the plane, G91, G161, G164 and inches change in between."""
+    at, lines, absolute, inverted = [0.0, 0.0, 0.0], ["G90 G17 G1 X0 Y0 Z0 F100"], True, False
+    axes = (0, 1)
+    for _ in range(draw(st.integers(1, 8))):
+        kind = draw(st.sampled_from(["arc", "arc", "arc", "arc", "other"]))
+        if kind == "other":
+            line = draw(st.sampled_from(MODES))
+            lines.append(line)
+            absolute = {"G91": False, "G90": True}.get(line, absolute)
+            inverted = {"G161": True, "G162": False}.get(line, inverted)
+            axes = {"G17": (0, 1), "G18": (2, 0), "G19": (1, 2)}.get(line, axes)
+            continue
+        radius, begin, turn = draw(st.integers(1, 20)), draw(ANGLE), draw(ANGLE)
+        off = draw(st.sampled_from([0.0, 0.0, 0.0, 1e-3, 0.05, 0.3, 3.0]))
+        back = [-radius * math.cos(math.radians(begin)), -radius * math.sin(math.radians(begin))]
+        end = [b + (radius + off) * f(math.radians(begin + turn))
+               for b, f in zip(back, (math.cos, math.sin), strict=True)]  # fmt: skip
+        words = [f"{'XYZ'[a]}{(at[a] if absolute else 0.0) + e:.4f}"
+                 for a, e in zip(axes, end, strict=True)]  # fmt: skip
+        centre = [f"{'IJK'[a]}{(at[a] if inverted else 0.0) + b:.4f}"
+                  for a, b in zip(axes, back, strict=True)]  # fmt: skip
+        other = f"{'XYZ'[3 - sum(axes)]}{draw(SMALL)}"
+        extra = draw(st.sampled_from(["", "", "", other, f"K{draw(SMALL)}", "F200", "A3 C-4"]))
+        how = draw(
+            st.sampled_from([centre, centre, centre[:1], [f"R{radius}"], [f"R-{radius}"], []])
+        )
+        code = draw(st.sampled_from(["G2", "G03", "G2", "G3", ""]))
+        drop = draw(st.sampled_from([0, 0, 0, 0, 1, 2]))
+        lines.append(" ".join(filter(None, [code, *words[drop:], *how, extra])))
+        at = [float(v) for v in at]
+        for a, e in zip(axes, end, strict=True):
+            at[a] += e
+    return lines
+
+
+MODES = ["G91", "G90", "G161", "G162", "G164", "G165", "G17", "G18", "G19", "G163=7", "G70", "G71",
+         "XV.G.I YV.G.R", "G1 X3 Y4", "G0 Z5", "", "(note)", "M8", "#SCALE ON X2 Y2", "G01 X1 I2",
+         "G351 X-1", "#CS ON [1,2,3,20]", "#ROTATION ON [ANGLE 30]", "R5", "I3", "G2", "G41",
+         "#PTP ON"]  # fmt: skip
+
+
+@settings(max_examples=400, deadline=None)
+@given(
+    circles(),
+    st.sampled_from([(LIMITED, ""), (LIMITED, ""), (CA_HEAD, "#KIN ID [91]\n#TRAFO ON\n")]),
+    st.sampled_from([None, None, 0.5]),
+)
+def test_lanes_agree_on_arcs(lines, held, sample):
+    machine, head = held
+    text = head + "\n".join(lines) + "\nM30\n"
+    assert_equal(machine, text, sample=sample)
+    fast, slow = (ncscope.run(machine, text, Options(bulk=bulk)) for bulk in (True, False))
+    for mine, other in zip(inspect(fast).travel, inspect(slow).travel, strict=True):
+        assert (mine.axis, mine.low_row, mine.high_row) == (
+            other.axis,
+            other.low_row,
+            other.high_row,
+        )
+        np.testing.assert_allclose([mine.low, mine.high], [other.low, other.high], atol=1e-12)
+
+
+ARCS = {
+    "inches": ("G70 G91", ["G2 X1 Y1 I1", "G3 X1 Y1 R1", "G3 X1 Y-1 R-1", "G2 I0.5"]),
+    "plane of Z and X": ("G18", ["G2 Z5 X5 I5", "G3 Z0 X0 K-5", "G2 Z3 X3 Y4 R3", "G1 Z0 X0"]),
+    "plane of Y and Z": ("G19 G91", ["G2 Y5 Z5 J5", "G3 Y-5 Z-5 K-5", "G3 Y2 Z2 X1 R2"]),
+    "absolute centres": ("G161", ["G2 X10 Y0 I5 J0", "G3 X0 Y0 I5", "G2 X0 Y8 I0 J4", "G1 Y0"]),
+    "centres as they are": ("G164", ["G2 X10 Y0.0005 I5 J0", "G3 X0 Y0 I-5"]),
+    "stored radius": ("G163=7", ["G2 X1 Y1", "G3 X5 Y5", "G1 X0", "G2 X5 Y0 R9", "G3 X0 Y0"]),
+    "full circles": ("G91", ["G3 I5", "G2 J-5 F200", "G3 X0 Y0 I1"]),
+}
+
+
+@pytest.mark.parametrize("name", ARCS)
+def test_arcs_of_all_kinds_take_the_bulk_lane(stepped, name):
+    head, lines = ARCS[name]
+    text = f"G90 G1 X0 Y0 Z0 F100\n{head}\n" + "\n".join(lines * 3) + "\nG1 XV.G.I YV.G.R\nM30\n"
+    assert_equal(LIMITED, text)
+    stepped.clear()
+    result = ncscope.run(LIMITED, text, Options(bulk=True)).check()
+    assert stepped == [2, 3 + 3 * len(lines), 4 + 3 * len(lines)]
+    assert len(result) == 2 + 3 * len(lines)
+
+
+def test_arcs_do_take_the_bulk_lane(stepped):
+    """Quarter circles about the origin: centre from the start, absolute end points."""
+    quarter = ["X0 Y10 I-10", "X-10 Y0 J-10", "X0 Y-10 I10", "X10 Y0 J10"]
+    text = "G1 F100 X10 Y0\nG3 X10 Y0 I-10\n" + "\n".join(quarter * 50) + "\nG3 X0 Y10 R-10\nM30\n"
+    result = ncscope.run(LIMITED, text, Options(bulk=True)).check()
+    assert stepped == [204]
+    assert result.pcs[-1, :2].tolist() == [0.0, 10.0]
+    reached = {t.axis.name: (t.low, t.high) for t in inspect(result).travel}
+    np.testing.assert_allclose(
+        reached["X"], (-10.0, 20.0), atol=1e-9
+    )  # three quarters about (10, 10)
+    np.testing.assert_allclose(reached["Y"], (-10.0, 20.0), atol=1e-9)
 
 
 def test_a_swing_goes_on_from_one_stretch_to_the_next():
@@ -185,7 +307,7 @@ def test_a_program_may_be_cut_anywhere(cut):
 SLIP = st.tuples(
     st.integers(0, 200),
     st.integers(0, 1),
-    st.sampled_from(list(" \tXGNFE19.-+()\r;#$=[]_x\x00\xff")),
+    st.sampled_from(list(" \tXGNFEIR19.-+()\r;#$=[]_x\x00\xff")),
 )
 
 
@@ -200,10 +322,10 @@ def test_lanes_agree_on_slips_of_a_finger(lines, slips):
     assert_equal(FLAT, text)
 
 
-def test_plain_blocks_do_take_the_bulk_lane():
+def test_plain_blocks_do_take_the_bulk_lane(stepped):
     """Without this the tests above would compare the step lane with itself."""
     text = "G1 F100 X0\n" + "".join(f"N{i} X{i}.5 Y-{i}\n" for i in range(200)) + "M30\n"
     result = ncscope.run(FLAT, text, Options(bulk=True))
-    assert len(result.stretches) == 1
+    assert stepped == [202]
     assert result.pcs[200, :2].tolist() == [199.5, -199.0]
     assert result.line[200] == 201

@@ -276,17 +276,17 @@ class _Loop:
         if self.bulk_lane is None:
             from ncscope.channel.bulk import BulkLane
 
-            self.bulk_lane = BulkLane(self.source, self.machine.settings.modulo_shortest)
-        while True:
+            self.bulk_lane = BulkLane(self.source, self.machine.settings)
+        more = True
+        while more:
             left = self.options.max_blocks - self.count if self.options.max_blocks else None
-            start, taken = (
-                self.state.position.program,
-                self.bulk_lane.take(reader, self.state, left),
-            )
+            start = self.state.position.program
+            taken = self.bulk_lane.take(reader, self.state, left)
             if taken is None:
                 return
+            more = taken.more
             self.state = taken.state
-            self.recorder.extend(taken.stretch, start, taken.ways)
+            self.recorder.extend(taken.stretch, start, taken.ways, taken.arcs)
             self.count += len(taken.stretch)
             self.report(reader.at)
             self.source.forget(reader.at)

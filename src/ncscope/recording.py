@@ -6,9 +6,11 @@ set of axes; with a tolerance they hold points along the moves too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import accumulate, chain
 from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,7 +20,7 @@ from ncscope.explanation import Visit
 from ncscope.frames import Array
 from ncscope.machine import Axis
 from ncscope.motion import MOTIONS, Move
-from ncscope.motion.arc import Arc
+from ncscope.motion.arcs import NO_ARCS, Arcs
 from ncscope.motion.bulges import bulges
 from ncscope.motion.paths import Paths
 from ncscope.motion.sampling import needs_points, sample
@@ -34,56 +36,105 @@ class _Part:
 
     start: programmed values before every row (m, n), or before the first one (n,) where each
     row begins at the end of the one before. ways: row -> programmed values where its path leads
-    before modulo axes are wrapped. spans: None where the lines are plain blocks.
+    before modulo axes are wrapped. spans: (m,), empty where all lines are plain blocks, None for
+    one that is.
     """
 
     stretch: Stretch
     start: Array
-    arcs: Mapping[int, Arc] = field(default_factory=dict)
-    spans: list[Span] | None = None
+    arcs: Arcs = NO_ARCS
+    spans: tuple[Span | None, ...] = ()
     ways: Mapping[int, Array] = field(default_factory=dict)
 
+    @classmethod
+    def of_moves(cls, opened: Opened, moves: Sequence[Move]) -> _Part:
+        """Single moves as columns."""
+        arcs = {i: m.arc for i, m in enumerate(moves) if m.arc is not None}
+        starts = np.array([m.start for m in moves], dtype=float)
+        ways = {i: m.way for i, m in enumerate(moves) if m.way is not None}
+        spans = tuple(m.span for m in moves)
+        return cls(_columns(opened, moves), starts, Arcs.of(arcs), spans, ways)
+
+    @classmethod
+    def joined(cls, parts: Sequence[_Part]) -> _Part:
+        """Parts that follow each other under the same coordinates."""
+        if len(parts) == 1:
+            return parts[0]
+        lengths = [len(part.stretch) for part in parts]
+        first = [0, *accumulate(lengths)]
+        columns = ("line", "block", "motion", "feed", "pcs", "acs")
+        rows: dict[str, Any] = {
+            c: np.concatenate([getattr(p.stretch, c) for p in parts]) for c in columns
+        }
+        spans = [p.spans or (None,) * n for p, n in zip(parts, lengths, strict=True)]
+        return cls(
+            replace(parts[0].stretch, **rows),
+            np.concatenate([part.starts() for part in parts]),
+            Arcs.joined((at, part.arcs) for at, part in zip(first, parts, strict=False)),
+            tuple(chain.from_iterable(spans)),
+            {at + i: way for at, p in zip(first, parts, strict=False) for i, way in p.ways.items()},
+        )
+
+    def starts(self) -> Array:
+        """(m, n) programmed values before every row."""
+        if self.start.ndim > 1:
+            return self.start
+        return np.concatenate([self.start[None], self.stretch.pcs[:-1]])
+
+    def span(self, row: int, source: Source) -> Span | None:
+        """The block of a row; None for a plain one in a file other than the source."""
+        known = self.spans[row] if self.spans else None
+        return known or _line_span(source, self.stretch.file, int(self.stretch.line[row]))
+
     def paths(self) -> Paths:
-        start = self.start
-        if start.ndim == 1:
-            start = np.concatenate([start[None], self.stretch.pcs[:-1]])
         stop = self.stretch.pcs
         if self.ways:
             stop = stop.copy()
             stop[list(self.ways)] = list(self.ways.values())
-        return Paths(start, stop, self.arcs, self.stretch.motion == MOTIONS.index("G00"))
+        return Paths(self.starts(), stop, self.arcs, self.stretch.motion == MOTIONS.index("G00"))
 
     def last(self, source: Source) -> tuple[Move, Coordinates]:
-        s = self.stretch
-        paths = self.paths()
-        found = self.spans[-1] if self.spans else _line_span(source, s.file, int(s.line[-1]))
-        span = found or Span(source, 0, 0)
+        s, row = self.stretch, len(self.stretch) - 1
         block, feed = int(s.block[-1]), float(s.feed[-1])
         move = Move(
             MOTIONS[s.motion[-1]],
             None if np.isnan(feed) else feed,
-            paths.start[-1],
+            self.paths().start[-1],
             s.pcs[-1],
             s.acs[-1],
             None if block == NO_BLOCK else block,
-            span,
+            self.span(row, source) or Span(source, 0, 0),
             None,
-            self.arcs.get(len(s) - 1),
-            self.ways.get(len(s) - 1),
+            self.arcs.at(row),
+            self.ways.get(row),
         )
         return move, s.coordinates
 
     def with_last(self, move: Move) -> _Part:
         pcs, acs = self.stretch.pcs.copy(), self.stretch.acs.copy()
         pcs[-1], acs[-1] = move.program, move.axes
-        arcs = dict(self.arcs)
-        if move.arc is not None:
-            arcs[len(pcs) - 1] = move.arc
+        arcs = self.arcs.with_arc(len(pcs) - 1, move.arc)
         return replace(self, stretch=replace(self.stretch, pcs=pcs, acs=acs), arcs=arcs)
+
+
+class Opened(NamedTuple):
+    """What the moves of a stretch have in common; start: (n,) axis positions before the first."""
+
+    coordinates: Coordinates
+    axes: tuple[str, ...]
+    start: Array
+    file: str
+
+    def holds(self, coordinates: Coordinates, axes: tuple[str, ...], file: str) -> bool:
+        """Whether a move under these can follow in the same stretch."""
+        return self.coordinates is coordinates and self.axes == axes and self.file == file
 
 
 LONGEST = 50_000
 """Moves after which a stretch is closed: as columns they need little memory."""
+SHORT = 4_000
+"""A run of plain blocks below this length is joined with the moves around it: the work for a
+stretch hardly depends on its length."""
 
 
 class Recorder:
@@ -105,7 +156,9 @@ class Recorder:
         self._source = source
         self._tolerance = tolerance
         self._sink = sink
-        self._open: tuple[Coordinates, tuple[str, ...], Array, str] | None = None
+        self._open: Opened | None = None
+        self._length = 0
+        self._parts: list[_Part] = []
         self._moves: list[Move] = []
         self._pending: _Part | None = None
         self._done = 0
@@ -116,35 +169,45 @@ class Recorder:
         self, coordinates: Coordinates, axes: tuple[str, ...], move: Move, start: Array
     ) -> None:
         """One move; `start` are the axis positions before it."""
-        file = move.span.source.name
-        if self._open is None or (
-            self._open[0] is not coordinates
-            or self._open[1] != axes
-            or self._open[3] != file
-            or len(self._moves) == LONGEST
-        ):
-            self._close()
-            self._open = (coordinates, axes, start, file)
+        self._begin(Opened(coordinates, axes, start, move.span.source.name))
         self._moves.append(move)
+        self._length += 1
         self.moves += 1
 
-    def extend(self, stretch: Stretch, start: Array, ways: Mapping[int, Array] = NO_WAYS) -> None:
-        """Many straight moves at once; `start` are the programmed values before them, `ways` as
-        in `_Part`."""
-        self._close()
-        self._push(_Part(stretch, start, ways=ways))
+    def extend(
+        self,
+        stretch: Stretch,
+        start: Array,
+        ways: Mapping[int, Array] = NO_WAYS,
+        arcs: Arcs = NO_ARCS,
+    ) -> None:
+        """Many moves at once; `start` are the programmed values before them, `ways` as in
+        `_Part`."""
+        part = _Part(stretch, start, arcs, ways=ways)
+        if len(stretch) < SHORT:
+            self._begin(Opened(stretch.coordinates, stretch.axes, stretch.start, stretch.file))
+            self._gather()
+            self._parts.append(part)
+            self._length += len(stretch)
+        else:
+            self._close()
+            self._push(part)
         self.moves += len(stretch)
 
     def last(self) -> tuple[Move, Coordinates] | None:
         """The last move with its chain; None before the first one."""
-        if self._open is not None:
-            return self._moves[-1], self._open[0]
+        if self._open is not None and self._moves:
+            return self._moves[-1], self._open.coordinates
+        if self._parts:
+            return self._parts[-1].last(self._source)
         return None if self._pending is None else self._pending.last(self._source)
 
     def replace_last(self, move: Move) -> None:
         """Another end for the last move."""
-        if self._open is not None:
+        if self._moves:
             self._moves[-1] = move
+        elif self._parts:
+            self._parts[-1] = self._parts[-1].with_last(move)
         elif self._pending is not None:
             self._pending = self._pending.with_last(move)
 
@@ -168,16 +231,26 @@ class Recorder:
         """Rows up to the end of so many moves, where a stretch ended there or nothing followed."""
         return self._row_of_move.get(moves, self._rows)
 
+    def _begin(self, opened: Opened) -> None:
+        """Opens a stretch where what the next move has in common with the last is not the same."""
+        now = self._open
+        same = now is not None and now.holds(opened.coordinates, opened.axes, opened.file)
+        if not same or self._length >= LONGEST:
+            self._close()
+            self._open = opened
+
+    def _gather(self) -> None:
+        """Single moves into columns."""
+        if self._moves:
+            assert self._open is not None
+            self._parts.append(_Part.of_moves(self._open, self._moves))
+            self._moves = []
+
     def _close(self) -> None:
-        if self._open is None:
-            return
-        moves = self._moves
-        arcs = {i: m.arc for i, m in enumerate(moves) if m.arc is not None}
-        starts = np.array([m.start for m in moves], dtype=float)
-        ways = {i: m.way for i, m in enumerate(moves) if m.way is not None}
-        part = _Part(self._stretch(), starts, arcs, [m.span for m in moves], ways)
-        self._open, self._moves = None, []
-        self._push(part)
+        self._gather()
+        parts, self._parts, self._open, self._length = self._parts, [], None, 0
+        if parts:
+            self._push(_Part.joined(parts))
 
     def _push(self, part: _Part | None) -> None:
         """The next part waits, because its last move may yet be cut by a chamfer; the one before
@@ -201,28 +274,10 @@ class Recorder:
             for place, span in self.coarse.items()
         ]
 
-    def _stretch(self) -> Stretch:
-        assert self._open is not None
-        (coordinates, axes, start, file), moves = self._open, self._moves
-        blocks = [NO_BLOCK if m.block is None else m.block for m in moves]
-        feeds = [np.nan if m.feed is None else m.feed for m in moves]
-        return Stretch(
-            coordinates,
-            axes,
-            file,
-            np.array([m.span.line for m in moves], dtype=np.int64),
-            np.array(blocks, dtype=np.int64),
-            np.array([MOTIONS.index(m.motion) for m in moves], dtype=np.int8),
-            np.array(feeds, dtype=float),
-            np.array([m.program for m in moves], dtype=float),
-            np.array([m.axes for m in moves], dtype=float),
-            start,
-        )
-
     def _sampled(self, part: _Part) -> Stretch:
         """The stretch of a part with points along its moves."""
-        s, spans = replace(part.stretch, between=part.paths), part.spans
-        if self._tolerance is None and not part.arcs:
+        s = replace(part.stretch, between=part.paths)
+        if self._tolerance is None and not len(part.arcs):
             return s
         paths = part.paths()
         s = replace(s, turning=turning_points(s.coordinates, paths, s.acs))
@@ -233,8 +288,8 @@ class Recorder:
         points = sample(s.coordinates, paths, s.acs, s.start, self._tolerance)
         for index in points.coarse:
             line = int(s.line[index])
-            source = spans[index].source if spans else self._source
-            span = _line_span(source, s.file, line)
+            block = part.span(index, self._source)
+            span = block and _line_span(block.source, s.file, line)
             self.coarse.setdefault((s.file, line), span)
         row = points.row
         return replace(
@@ -247,6 +302,23 @@ class Recorder:
             acs=points.acs,
             ends=points.share == 1.0,
         )
+
+
+def _columns(opened: Opened, moves: Sequence[Move]) -> Stretch:
+    blocks = [NO_BLOCK if m.block is None else m.block for m in moves]
+    feeds = [np.nan if m.feed is None else m.feed for m in moves]
+    return Stretch(
+        opened.coordinates,
+        opened.axes,
+        opened.file,
+        np.array([m.span.line for m in moves], dtype=np.int64),
+        np.array(blocks, dtype=np.int64),
+        np.array([MOTIONS.index(m.motion) for m in moves], dtype=np.int8),
+        np.array(feeds, dtype=float),
+        np.array([m.program for m in moves], dtype=float),
+        np.array([m.axes for m in moves], dtype=float),
+        opened.start,
+    )
 
 
 def with_bulges(stretch: Stretch, axes: tuple[Axis, ...]) -> Stretch:

@@ -13,6 +13,7 @@ import ncscope
 from ncscope.coordinates import ActiveKinematics, Coordinates
 from ncscope.kinematics import UniversalKinematics
 from ncscope.kinematics.parameters import field_index
+from ncscope.motion.arcs import NO_ARCS
 from ncscope.motion.paths import Paths
 from ncscope.motion.sampling import sample
 
@@ -135,7 +136,7 @@ def test_a_pole_is_passed_with_a_jump_of_one_axis():
     start, end = np.array([[0.0, 0, 0, 0, 20]]), np.array([[10.0, 0, 0, 0.01, -20]])
     near = chain.to_axes(start[0])
     ends = chain.to_axes(end, near=near)
-    points = sample(chain, Paths(start, end, {}), ends, near, 0.01)
+    points = sample(chain, Paths(start, end, NO_ARCS), ends, near, 0.01)
     assert np.isfinite(points.acs).all()
     assert (np.diff(points.share) > 0).all()
     assert len(points.row) < 3000

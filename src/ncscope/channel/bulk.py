@@ -14,16 +14,18 @@ from typing import NamedTuple
 import numpy as np
 
 from ncscope.channel.modulo import way_to
+from ncscope.channel.plain_arcs import arcs_among, with_circle
 from ncscope.channel.state import Position, State
 from ncscope.compilation import compiled
 from ncscope.diagnostics import Source
 from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
 from ncscope.language import BlockReader
-from ncscope.language.scanner import PlainRows, Scanner
+from ncscope.language.scanner import CHUNK, PlainRows, Scanner
 from ncscope.levels import in_range
-from ncscope.machine import Axis
+from ncscope.machine import Axis, ChannelSettings
 from ncscope.motion import MOTIONS
+from ncscope.motion.arcs import Arcs
 from ncscope.trajectory import Stretch
 
 
@@ -31,21 +33,21 @@ class Taken(NamedTuple):
     """Some plain blocks: their moves and the state behind them.
 
     ways: row -> where the path leads before modulo axes are wrapped, where that differs.
+    arcs: the rows that are arcs. more: whether the next block may be a plain one too.
     """
 
     state: State
     stretch: Stretch
     ways: Mapping[int, Array]
+    arcs: Arcs
+    more: bool
 
 
 class BulkLane:
-    """Takes the plain blocks of one program.
+    """Takes the plain blocks of one program."""
 
-    shortest: modulo axes take the short way whatever their sign says (P-CHAN-00346).
-    """
-
-    def __init__(self, source: Source, shortest: bool) -> None:
-        self._source, self._shortest = source, shortest
+    def __init__(self, source: Source, settings: ChannelSettings) -> None:
+        self._source, self._settings = source, settings
         self._axes: tuple[Axis, ...] = ()
         self._scanner: Scanner | None = None
 
@@ -57,7 +59,7 @@ class BulkLane:
         begin = reader.at
         rows = self._scanner_for(state).scan(begin, self._source.position(begin)[0])
         left = len(rows) if limit is None else min(len(rows), limit)
-        taken = advance(state, rows, self._source.name, left, self._shortest) if left else None
+        taken = advance(state, rows, self._source.name, left, self._settings) if left else None
         if taken is not None:
             n, first = len(taken.stretch), int(rows.line[0])
             reader.skip_to(int(rows.stops[n - 1]))
@@ -73,16 +75,20 @@ class BulkLane:
         return self._scanner
 
 
-def advance(state: State, rows: PlainRows, file: str, n: int, shortest: bool) -> Taken | None:
+def advance(
+    state: State, rows: PlainRows, file: str, n: int, settings: ChannelSettings
+) -> Taken | None:
     """The first n rows; the stretch says how many were taken, None stands for none."""
     motion = _filled_codes(rows.motion[:n], MOTIONS.index(state.modal.motion))
     absolute = _filled_codes(rows.absolute[:n], int(state.modal.absolute))
     feed = _filled_feed(state, rows.feed[:n])
     n = _before_warning(state, motion, feed, n)
-    program, ways = _programmed(state, rows.values[:n], absolute[:n], shortest)
-    axes, n = _axes(state, program) if n else (program, 0)
+    program, ways = _programmed(state, rows.values[:n], absolute[:n], settings.modulo_shortest)
+    found = arcs_among(state, settings, rows, motion[:n], program)
+    axes, n = _axes(state, program[: found.rows])
     if n == 0:
         return None
+    found = found.before(n)
     stretch = Stretch(
         state.coordinates,
         state.axis_names,
@@ -96,8 +102,8 @@ def advance(state: State, rows: PlainRows, file: str, n: int, shortest: bool) ->
         state.position.axes,
     )
     turned = np.flatnonzero((ways[:n] != program[:n]).any(axis=1)) if ways is not program else ()
-    after = _state_after(state, stretch, bool(absolute[n - 1]))
-    return Taken(after, stretch, {int(row): ways[row] for row in turned})
+    after = with_circle(_state_after(state, stretch, bool(absolute[n - 1])), state, found, program)
+    return Taken(after, stretch, {int(row): ways[row] for row in turned}, found.arcs, n == CHUNK)
 
 
 def _programmed(state: State, values: Array, absolute, shortest: bool) -> tuple[Array, Array]:
@@ -137,13 +143,15 @@ def _before_warning(state: State, motion, feed: Array, n: int) -> int:
     """Rows before the first feed motion without a feed, of which the step lane warns once."""
     if state.modal.feed_warned:
         return n
-    bare = np.flatnonzero((motion[:n] == MOTIONS.index("G01")) & np.isnan(feed[:n]))
+    bare = np.flatnonzero((motion[:n] != MOTIONS.index("G00")) & np.isnan(feed[:n]))
     return int(bare[0]) if len(bare) else n
 
 
 def _axes(state: State, program: Array) -> tuple[Array, int]:
     """Axis positions and how many rows have one: an error is reported by the step lane."""
     near = state.position.axes
+    if len(program) == 0:
+        return program, 0
     try:
         axes = state.coordinates.to_axes(program, near=near)
         n = len(axes)

@@ -13,16 +13,31 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ncscope.channel.draft import Draft
+from ncscope.compilation import compiled
 from ncscope.diagnostics import Span
 from ncscope.frames import Array
-from ncscope.motion.arc import SAME_POINT, Arc, Point, centre_of_radius, fitting_centre
+from ncscope.motion.arc import (
+    SAME_POINT,
+    Arc,
+    Point,
+    centre_of_radius,
+    distance,
+    fitting_centre,
+)
 
 if TYPE_CHECKING:
     from ncscope.channel.words import Words
+    from ncscope.machine import ChannelSettings
 
 CIRCULAR = ("G02", "G03")
 CENTRE_LETTERS = "IJK"
 """The centre word of the channel axes 0, 1 and 2."""
+LARGEST = 1e150
+"""mm from which an arc cannot be computed."""
+GOOD, TOO_LARGE, AT_START, SHIFTED, SHIFTED_TOO_FAR, RADII_DIFFER, FULL_CIRCLE, TOO_FAR_APART = (
+    range(8)
+)
+"""What is to be said of an arc."""
 Word = tuple[float, Span]
 
 
@@ -99,7 +114,8 @@ def arc(draft: Draft, words: Words, centre: dict[int, Word], target: Array, span
         found = _with_radius(draft, circle, radius_word[1] if radius_word else span)
     if pitch is not None:
         found = _with_turns(draft, found, pitch, words, target)
-    _remember(draft, found, circle)
+    memory = remembered(found, circle.start, draft.modes.centre_absolute)
+    draft.state = replace(draft.state, circle=memory)
     return found
 
 
@@ -115,7 +131,7 @@ def _circle(draft: Draft, target: Array, span: Span) -> _Circle:
         draft.fail("N2020", span, what)
     start = state.position.program
     points = (start[first], start[second]), (target[first], target[second])
-    if not all(math.isfinite(v) and abs(v) < 1e150 for point in points for v in point):
+    if not all(abs(v) < LARGEST for point in points for v in point):
         draft.fail("21883", span, "the arc is too large to be computed")
     from_to = tuple((float(a), float(b)) for a, b in points)
     return _Circle((first, second), from_to[0], from_to[1], state.modal.motion == "G02", span)
@@ -137,47 +153,82 @@ def _outside_plane(
 
 def _about_centre(draft: Draft, circle: _Circle, centre: dict[int, Word]) -> Arc:
     span = next(iter(centre.values()))[1]
-    given = [draft.length(a, centre[a][0]) if a in centre else 0.0 for a in circle.axes]
-    if not draft.modes.centre_absolute:
-        given = [value + at for value, at in zip(given, circle.start, strict=True)]
-    middle = given[0], given[1]
-    if not all(abs(v) < 1e150 for v in middle):
-        draft.fail("21883", span, "the arc is too large to be computed")
-    if math.dist(circle.start, middle) < SAME_POINT:
-        hint = "with G161 the centre is absolute, with G162 it counts from the start point"
-        draft.fail("20036", span, "the centre of the arc is its start point", hint)
-    if draft.modes.centre_fits:
-        middle = _corrected(draft, circle, middle, span)
-    found = Arc.through(circle.axes, circle.start, circle.end, middle, circle.clockwise)
-    if not draft.modes.centre_fits:
-        _check_radii(draft, found, span)
+    first, second = (
+        (draft.length(axis, centre[axis][0]) if axis in centre else 0.0)
+        + (0.0 if draft.modes.centre_absolute else at)
+        for axis, at in zip(circle.axes, circle.start, strict=True)
+    )
+    given, fits = (first, second), draft.modes.centre_fits
+    settings = draft.machine.settings
+    verdict, *middle = about_centre(*circle.start, *circle.end, *given, fits, *limits_of(settings))
+    found = Arc.through(
+        circle.axes, circle.start, circle.end, (middle[0], middle[1]), circle.clockwise
+    )
+    _judge(draft, verdict, found, given, span)
     return found
 
 
-def _corrected(draft: Draft, circle: _Circle, centre: Point, span: Span) -> Point:
-    """G165: the centre is moved so that start and end lie on one circle, within two limits."""
-    fitting = fitting_centre(circle.start, circle.end, centre)
-    moved, radius = math.dist(centre, fitting), math.dist(circle.start, fitting)
-    settings = draft.machine.settings
-    over = [moved > settings.centre_shift, moved > settings.centre_shift_share * radius]
-    what = f"the centre is {moved:.4f} mm from one that fits start and end (radius {radius:.4f} mm)"
-    hint = f"limits: {settings.centre_shift:g} mm and {settings.centre_shift_share:.1%} of radius"
-    if all(over) or radius < SAME_POINT:
-        draft.fail("20035", span, what, hint)
-    if any(over):
-        draft.warn("N2030", span, what, hint)
-    return fitting
-
-
-def _check_radii(draft: Draft, found: Arc, span: Span) -> None:
-    """G164: the centre stays; start and end radius may differ within two limits."""
-    difference = abs(found.end_radius - found.start_radius)
-    settings = draft.machine.settings
-    share = settings.radius_difference_share * found.start_radius
-    if difference > max(settings.radius_difference, share, SAME_POINT):
-        what = f"start radius {found.start_radius:.4f} mm, end radius {found.end_radius:.4f} mm"
+def _judge(draft: Draft, verdict: int, found: Arc, given: Point, span: Span) -> None:
+    """Says what is wrong with an arc about the given centre."""
+    settings, radius = draft.machine.settings, found.start_radius
+    if verdict == TOO_LARGE:
+        draft.fail("21883", span, "the arc is too large to be computed")
+    if verdict == AT_START:
+        hint = "with G161 the centre is absolute, with G162 it counts from the start point"
+        draft.fail("20036", span, "the centre of the arc is its start point", hint)
+    if verdict == RADII_DIFFER:
+        what = f"start radius {radius:.4f} mm, end radius {found.end_radius:.4f} mm"
         hint = "give the centre more exactly, or let G165 correct it"
         draft.fail("21758", span, f"the radii of the arc differ too much: {what}", hint)
+    moved = f"{math.dist(given, found.centre):.4f} mm"
+    what = f"the centre is {moved} from one that fits start and end (radius {radius:.4f} mm)"
+    hint = f"limits: {settings.centre_shift:g} mm and {settings.centre_shift_share:.1%} of radius"
+    if verdict == SHIFTED_TOO_FAR:
+        draft.fail("20035", span, what, hint)
+    if verdict == SHIFTED:
+        draft.warn("N2030", span, what, hint)
+
+
+def limits_of(settings: ChannelSettings) -> tuple[float, float, float, float]:
+    """How far a centre may be off, and by how much the radii may differ with G164: mm, and parts
+    of the radius (P-CHAN-00059, P-CHAN-00060, P-CHAN-00171, P-CHAN-00172)."""
+    shift = settings.centre_shift, settings.centre_shift_share
+    return *shift, settings.radius_difference, settings.radius_difference_share
+
+
+@compiled
+def about_centre(x0, y0, x1, y1, cx, cy, fits, shift, shift_share, difference, difference_share):
+    """What is to be said of an arc about a centre, and the centre that counts.
+
+    G165 (fits): the centre is moved so that start and end lie on one circle, within two limits.
+    G164: it stays, and start and end radius may differ within two limits.
+    """
+    if not (abs(cx) < LARGEST and abs(cy) < LARGEST):
+        return TOO_LARGE, cx, cy
+    first = distance(x0, y0, cx, cy)
+    if first < SAME_POINT:
+        return AT_START, cx, cy
+    if not fits:
+        apart = abs(distance(x1, y1, cx, cy) - first)
+        good = apart <= max(difference, difference_share * first, SAME_POINT)
+        return GOOD if good else RADII_DIFFER, cx, cy
+    mx, my = fitting_centre(x0, y0, x1, y1, cx, cy)
+    moved, radius = distance(cx, cy, mx, my), distance(x0, y0, mx, my)
+    far, wide = moved > shift, moved > shift_share * radius
+    if (far and wide) or radius < SAME_POINT:
+        return SHIFTED_TOO_FAR, mx, my
+    return SHIFTED if far or wide else GOOD, mx, my
+
+
+@compiled
+def with_radius(x0, y0, x1, y1, radius, clockwise):
+    """What is to be said of an arc with a radius, and its centre."""
+    if distance(x0, y0, x1, y1) < SAME_POINT:
+        return FULL_CIRCLE, 0.0, 0.0
+    if not abs(radius) < LARGEST:
+        return TOO_LARGE, 0.0, 0.0
+    possible, cx, cy = centre_of_radius(x0, y0, x1, y1, radius, clockwise)
+    return GOOD if possible else TOO_FAR_APART, cx, cy
 
 
 def _with_radius(draft: Draft, circle: _Circle, span: Span) -> Arc:
@@ -185,17 +236,18 @@ def _with_radius(draft: Draft, circle: _Circle, span: Span) -> Arc:
     if radius is None:
         hint = "write I and J (I and K, J and K) for the centre, or R for the radius"
         draft.fail("20036", circle.span, "the arc has no centre and no radius", hint)
-    distance = math.dist(circle.start, circle.end)
-    if distance < SAME_POINT:
+    verdict, *centre = with_radius(*circle.start, *circle.end, radius, circle.clockwise)
+    if verdict == FULL_CIRCLE:
         hint = "give the centre with I, J, K"
         draft.fail("20034", span, "a full circle cannot be given by its radius", hint)
-    if abs(radius) >= 1e150:
+    if verdict == TOO_LARGE:
         draft.fail("21883", span, "the arc is too large to be computed")
-    centre = centre_of_radius(circle.start, circle.end, radius, circle.clockwise)
-    if centre is None:
-        what = f"start and end are {distance:.4f} mm apart, farther than twice the radius"
-        draft.fail("20033", span, what, f"the radius has to be {distance / 2:.4f} mm or more")
-    return Arc.through(circle.axes, circle.start, circle.end, centre, circle.clockwise)
+    if verdict == TOO_FAR_APART:
+        chord = distance(*circle.start, *circle.end)
+        what = f"start and end are {chord:.4f} mm apart, farther than twice the radius"
+        draft.fail("20033", span, what, f"the radius has to be {chord / 2:.4f} mm or more")
+    middle = centre[0], centre[1]
+    return Arc.through(circle.axes, circle.start, circle.end, middle, circle.clockwise)
 
 
 def _with_turns(draft: Draft, found: Arc, pitch: Word, words: Words, target: Array) -> Arc:
@@ -215,9 +267,9 @@ def _with_turns(draft: Draft, found: Arc, pitch: Word, words: Words, target: Arr
 MOST_TURNS = 100_000
 
 
-def _remember(draft: Draft, found: Arc, circle: _Circle) -> None:
+def remembered(found: Arc, start: Point, absolute: bool) -> tuple[float, float, float, float]:
     """V.G.I, V.G.J, V.G.K and V.G.R: the corrected centre, as the centre words count now."""
     values = [0.0, 0.0, 0.0, found.start_radius]
-    for axis, middle, at in zip(circle.axes, found.centre, circle.start, strict=True):
-        values[axis] = middle if draft.modes.centre_absolute else middle - at
-    draft.state = replace(draft.state, circle=(values[0], values[1], values[2], values[3]))
+    for axis, middle, at in zip(found.axes, found.centre, start, strict=True):
+        values[axis] = middle if absolute else middle - at
+    return values[0], values[1], values[2], values[3]

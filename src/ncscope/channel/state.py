@@ -48,9 +48,9 @@ class Modal:
 
     @property
     def plain(self) -> bool:
-        """Whether axis words are plain positions on straight moves."""
-        straight = self.motion in ("G00", "G01")
-        return straight and self.diameter_axis is None and not self.compensation_begins
+        """Whether axis words are plain positions on straight moves or arcs."""
+        path = self.motion in ("G00", "G01", "G02", "G03")
+        return path and self.diameter_axis is None and not self.compensation_begins
 
     @property
     def length_factor(self) -> float:

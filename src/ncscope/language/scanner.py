@@ -2,9 +2,9 @@
 
 Enters the bytes of a program and an offset at the start of a line. Leaves columns for the run of
 plain blocks that begins there, and the offset of the first line that is none. A plain block is
-`N` first, then G0 G1 G90 G91, one-letter axis words and F, each at most once and with a literal
-number, and nothing else. Every other line is left to the parser, so nothing has to be decided
-twice: what could be wrong is not plain.
+`N` first, then G0 to G3, G90 G91, one-letter axis words, I J K R and F, each at most once and with
+a literal number, and nothing else. Every other line is left to the parser, so nothing has to be
+decided twice: what could be wrong is not plain.
 """
 
 from __future__ import annotations
@@ -36,8 +36,10 @@ _LONGEST = np.uint64(LONGEST_LINE - 40)
 class PlainRows:
     """Columns of plain blocks, one row each, in the units of the program.
 
-    line: from 1. block, motion (0, 1), absolute (1 for G90, 0 for G91): -1 where not programmed.
-    feed, values: NaN where not programmed. values: (rows, axes). stops: offset behind each row.
+    line: from 1. block, motion (0 to 3), absolute (1 for G90, 0 for G91): -1 where not programmed.
+    feed, values: NaN where not programmed. values: (rows, axes). circular: which of I, J, K and R
+    are programmed, as bits 1, 2, 4 and 8; centre (rows, 4): their values there. stops: offset
+    behind each row.
     """
 
     line: NDArray[np.int64]
@@ -46,6 +48,8 @@ class PlainRows:
     absolute: NDArray[np.int8]
     feed: NDArray[np.float64]
     values: NDArray[np.float64]
+    circular: NDArray[np.uint8]
+    centre: NDArray[np.float64]
     stops: NDArray[np.int64]
 
     def __len__(self) -> int:
@@ -74,13 +78,15 @@ class Scanner:
         self._codes = np.empty((CHUNK, 2), dtype=np.int8)
         self._feed = np.empty(CHUNK)
         self._values = np.empty((CHUNK, n))
+        self._circular, self._centre = np.empty(CHUNK, dtype=np.uint8), np.empty((CHUNK, 4))
         self._stops = np.empty(CHUNK, dtype=np.int64)
 
     def scan(self, offset: int, line: int) -> PlainRows:
         """The plain blocks from `offset`, which begins line `line`, up to CHUNK rows."""
         count = _scan(
             self.data, self._size, np.uint64(offset), line, self.columns, self._signed, _POWERS,
-            self._line, self._block, self._codes, self._feed, self._values, self._stops,
+            self._line, self._block, self._codes, self._feed, self._values, self._circular,
+            self._centre, self._stops,
         )  # fmt: skip
         return PlainRows(
             self._line[:count],
@@ -89,6 +95,8 @@ class Scanner:
             self._codes[:count, 1],
             self._feed[:count],
             self._values[:count],
+            self._circular[:count],
+            self._centre[:count],
             self._stops[:count],
         )
 
@@ -104,15 +112,16 @@ def _whole_lines(data):
 
 @compiled
 def _scan(
-    data, size, at, line, columns, signed, powers, lines, blocks, codes, feeds, values, stops
-):
+    data, size, at, line, columns, signed, powers, lines, blocks, codes, feeds, values, circular,
+    centre, stops
+):  # fmt: skip
     """Rows read; a blank line between plain blocks belongs to the run. Each line before `size`
     ends with a line feed, so that no loop below it needs another end."""
     count = _NONE
     while at < size and count < len(lines):
         start = at
         at, axes = _read_line(
-            data, at, columns, signed, powers, blocks, codes, feeds, values, count
+            data, at, columns, signed, powers, blocks, codes, feeds, values, circular, centre, count
         )
         if at == _NONE:
             break
@@ -133,13 +142,16 @@ def _is_blank(data, at):
 
 
 @compiled
-def _read_line(data, at, columns, signed, powers, blocks, codes, feeds, values, row):
-    """Offset behind the line and its number of axis words; offset 0 when it is not plain."""
+def _read_line(
+    data, at, columns, signed, powers, blocks, codes, feeds, values, circular, centre, row
+):
+    """Offset behind the line and its number of words that make a motion, those of axes and of the
+    centre of an arc; offset 0 when it is not plain."""
     longest = at + _LONGEST
     block, motion, absolute, feed = -1, -1, -1, np.nan
     for axis in range(values.shape[1]):
         values[row, np.uint64(axis)] = np.nan
-    words, axes = 0, 0
+    words, axes, given = 0, 0, 0
     while True:
         char = data[at]
         if char == 32 or char == 9 or (char == 13 and data[at + _ONE] == 10):
@@ -154,7 +166,7 @@ def _read_line(data, at, columns, signed, powers, blocks, codes, feeds, values, 
             if words > 0 or not whole or number > _HIGHEST_BLOCK:
                 return _NONE, 0
             block = number
-        elif char == 71 and whole and number <= 1:  # G0, G1
+        elif char == 71 and whole and number <= 3:  # G0 to G3
             if motion >= 0:
                 return _NONE, 0
             motion = number
@@ -166,6 +178,14 @@ def _read_line(data, at, columns, signed, powers, blocks, codes, feeds, values, 
             if sign < 0 or number == 0 or not np.isnan(feed):
                 return _NONE, 0
             feed = number / powers[decimals]
+        elif 73 <= char <= 75 or char == 82:  # I, J, K, R
+            place = 3 if char == 82 else int(char) - 73
+            if given & (1 << place):
+                return _NONE, 0
+            given |= 1 << place
+            value = number / powers[decimals]
+            centre[row, np.uint64(place)] = -value if sign < 0 else value
+            axes += place < 3
         else:
             known = columns[char]
             if known < 0:
@@ -178,6 +198,7 @@ def _read_line(data, at, columns, signed, powers, blocks, codes, feeds, values, 
             axes += 1
         words += 1
     blocks[row], feeds[row], codes[row, 0], codes[row, 1] = block, feed, motion, absolute
+    circular[row] = given
     return at + _ONE, axes
 
 

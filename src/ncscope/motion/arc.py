@@ -2,7 +2,8 @@
 
 Points and centres are pairs (first, second axis of the plane) of programmed values in mm; angles
 count from the first axis to the second. Seen against the third axis of the plane, positive angles
-turn counter-clockwise, so G03 has a positive sweep and G02 a negative one.
+turn counter-clockwise, so G03 has a positive sweep and G02 a negative one. The compiled functions
+take the coordinates of points one by one.
 Source: TF5200 programming manual, G02 G03, G164 G165, radius programming.
 """
 
@@ -10,6 +11,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+
+from ncscope.compilation import compiled
 
 Point = tuple[float, float]
 
@@ -36,59 +39,54 @@ class Arc:
 
     @classmethod
     def through(
-        cls,
-        axes: tuple[int, int],
-        start: Point,
-        end: Point,
-        centre: Point,
-        clockwise: bool,
-        turns: int = 0,
+        cls, axes: tuple[int, int], start: Point, end: Point, centre: Point, clockwise: bool
     ) -> Arc:
-        """The arc about `centre`; a full circle where start and end are the same point.
-
-        turns: full turns beside the arc (helix).
-        """
-        begin = math.atan2(start[1] - centre[1], start[0] - centre[0])
-        finish = math.atan2(end[1] - centre[1], end[0] - centre[0])
-        sweep = (begin - finish if clockwise else finish - begin) % math.tau
-        if math.dist(start, end) < SAME_POINT or sweep == 0.0:
-            sweep = math.tau
-        sweep += turns * math.tau
-        radii = math.dist(start, centre), math.dist(end, centre)
-        return cls(axes, centre, begin, -sweep if clockwise else sweep, *radii)
+        """The arc about `centre`; a full circle where start and end are the same point."""
+        return cls(axes, centre, *angles_and_radii(*start, *end, *centre, clockwise))
 
     @property
     def radius(self) -> float:
         """The larger radius, mm."""
         return max(self.start_radius, self.end_radius)
 
-    @property
-    def is_spiral(self) -> bool:
-        return abs(self.start_radius - self.end_radius) > SAME_POINT
+
+@compiled
+def distance(x0, y0, x1, y1):
+    return math.sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
 
 
-def fitting_centre(start: Point, end: Point, centre: Point) -> Point:
-    """The nearest point to `centre` from which start and end are equally far: its foot on the
+@compiled
+def angles_and_radii(x0, y0, x1, y1, cx, cy, clockwise):
+    """Start angle and sweep (radians), start and end radius of the arc about a centre."""
+    begin = math.atan2(y0 - cy, x0 - cx)
+    finish = math.atan2(y1 - cy, x1 - cx)
+    sweep = (begin - finish if clockwise else finish - begin) % math.tau
+    if distance(x0, y0, x1, y1) < SAME_POINT or sweep == 0.0:
+        sweep = math.tau
+    first, last = distance(x0, y0, cx, cy), distance(x1, y1, cx, cy)
+    return begin, -sweep if clockwise else sweep, first, last
+
+
+@compiled
+def fitting_centre(x0, y0, x1, y1, cx, cy):
+    """The nearest point to the centre from which start and end are equally far: its foot on the
     perpendicular bisector. The centre itself where start and end are the same point."""
-    length = math.dist(start, end)
+    length = distance(x0, y0, x1, y1)
     if length < SAME_POINT:
-        return centre
-    along = (end[0] - start[0]) / length, (end[1] - start[1]) / length
-    middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
-    off = (centre[0] - middle[0]) * along[0] + (centre[1] - middle[1]) * along[1]
-    return centre[0] - off * along[0], centre[1] - off * along[1]
+        return cx, cy
+    ux, uy = (x1 - x0) / length, (y1 - y0) / length
+    off = (cx - (x0 + x1) / 2) * ux + (cy - (y0 + y1) / 2) * uy
+    return cx - off * ux, cy - off * uy
 
 
-def centre_of_radius(start: Point, end: Point, radius: float, clockwise: bool) -> Point | None:
-    """The centre of the arc with this radius; None where the points are too far apart.
-
-    A positive radius gives the arc up to half a turn, a negative one the arc beyond.
-    """
-    half = math.dist(start, end) / 2
+@compiled
+def centre_of_radius(x0, y0, x1, y1, radius, clockwise):
+    """Whether there is an arc with this radius, and its centre: none where the points are too far
+    apart. A positive radius gives the arc up to half a turn, a negative one the arc beyond."""
+    half = distance(x0, y0, x1, y1) / 2
     if abs(radius) < half - HALF_CIRCLE_SLACK:
-        return None
+        return False, 0.0, 0.0
     height = math.sqrt(max(0.0, radius * radius - half * half))
-    left = (start[1] - end[1]) / (2 * half), (end[0] - start[0]) / (2 * half)
+    ux, uy = (y0 - y1) / (2 * half), (x1 - x0) / (2 * half)
     side = height if clockwise == (radius < 0) else -height
-    middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
-    return middle[0] + side * left[0], middle[1] + side * left[1]
+    return True, (x0 + x1) / 2 + side * ux, (y0 + y1) / 2 + side * uy

@@ -17,7 +17,7 @@ from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError, KinematicStep
 from ncscope.kinematics.universal import UniversalKinematics
 from ncscope.motion.paths import Paths
-from ncscope.motion.turning import TurningPoints
+from ncscope.motion.turning import CHUNK, TurningPoints
 
 Rows = NDArray[np.int64]
 
@@ -34,8 +34,6 @@ FEWEST, MOST = 24, 2_000
 HALF_TURN = 180.0
 """Degrees up to which PROBES of a path show at least half of its bulge."""
 PROBES = (0.25, 0.5, 0.75)
-CHUNK = 200_000
-"""Points that are computed together: bounds the memory."""
 
 
 def bulges(
@@ -93,7 +91,7 @@ def _candidates(paths: Paths, turn: Array, before: Array, acs: Array, limits: Ar
     low, high = np.minimum(before, acs) - margin, np.maximum(before, acs) + margin
     near = ((low < limits[:, 0]) | (high > limits[:, 1])).any(axis=1)
     bent = (turn > 0.0) & (length > 0.0)
-    bent[list(paths.arcs)] = False
+    bent[paths.arcs.row] = False
     return np.flatnonzero(bent & (near | (turn >= SMALL_TURN)))
 
 

@@ -19,6 +19,7 @@ from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
 from ncscope.motion import Move
 from ncscope.motion.arc import Arc, Point
+from ncscope.motion.arcs import Arcs
 from ncscope.motion.paths import Paths
 
 CORNERED = {"G00", "G01", "G02", "G03"}
@@ -312,7 +313,7 @@ def _meet_circles(first: Point, r: float, second: Point, s: float) -> list[Point
 def _at(move: Move, share: float) -> Array:
     """Programmed values (n,) at a share of the move."""
     arcs = {} if move.arc is None else {0: move.arc}
-    paths = Paths(move.start[None], move.program[None], arcs)
+    paths = Paths(move.start[None], move.program[None], Arcs.of(arcs))
     point = paths.at(np.zeros(1, dtype=np.int64), np.array([share]))[0]
     return np.array(move.start, dtype=float) if share == 0.0 else point
 

@@ -6,7 +6,6 @@ the plane of its two ends (P-CHAN-00417).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,21 +15,21 @@ from numpy.typing import NDArray
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
 from ncscope.kinematics.plane import turned_in_plane
-from ncscope.motion.arc import Arc
+from ncscope.motion.arcs import Arcs
 
 
 @dataclass(frozen=True)
 class Paths:
     """m paths in programmed values. start, end: (m, n) mm and degrees, modulo axes not wrapped.
 
-    arcs: row -> its arc. rapid: (m,) whether it is G00, None where that does not matter.
+    rapid: (m,) whether it is G00, None where that does not matter.
     turning: the chain under which programmed directions turn in a plane, None where angles run
     linearly.
     """
 
     start: Array
     end: Array
-    arcs: Mapping[int, Arc]
+    arcs: Arcs
     rapid: NDArray[np.bool_] | None = None
     turning: Coordinates | None = None
 
@@ -46,32 +45,21 @@ class Paths:
 
     def part(self, rows: NDArray[np.int64]) -> Paths:
         """These rows alone."""
-        arcs = {new: self.arcs[old] for new, old in enumerate(rows.tolist()) if old in self.arcs}
-        rapid = None if self.rapid is None else self.rapid[rows]
+        arcs, rapid = self.arcs.of_rows(rows), None if self.rapid is None else self.rapid[rows]
         return replace(self, start=self.start[rows], end=self.end[rows], arcs=arcs, rapid=rapid)
 
     @cached_property
     def _arc_of_row(self) -> NDArray[np.int64]:
-        """Place of the arc of each row in the columns of `_arc_columns`, -1 for a straight path."""
+        """Which of the arcs each row is, -1 for a straight path."""
         places = np.full(len(self), -1, dtype=np.int64)
-        places[list(self.arcs)] = np.arange(len(self.arcs))
+        places[self.arcs.row] = np.arange(len(self.arcs))
         return places
-
-    @cached_property
-    def _arc_columns(self) -> tuple[NDArray[np.int64], Array]:
-        """Plane axes (a, 2), and (a, 6): centre, start angle, sweep, start radius, end radius."""
-        axes = np.array([arc.axes for arc in self.arcs.values()], dtype=np.int64).reshape(-1, 2)
-        values = [
-            (*arc.centre, arc.start_rad, arc.sweep_rad, arc.start_radius, arc.end_radius)
-            for arc in self.arcs.values()
-        ]
-        return axes, np.array(values, dtype=float).reshape(-1, 6)
 
     def at(self, row: NDArray[np.int64], share: Array) -> Array:
         """Programmed values (k, n) at shares (k,) of the paths `row` (k,); 1 is exactly the end."""
         column = share[:, None]
         points = self.start[row] + column * (self.end[row] - self.start[row])
-        if self.arcs:
+        if len(self.arcs):
             self._bend(points, row, share)
         if self.turning is not None:
             points = self._turned(self.turning, points, row, share)
@@ -81,8 +69,8 @@ class Paths:
         """Writes the plane coordinates of the points that lie on arcs."""
         own = np.flatnonzero(self._arc_of_row[row] >= 0)
         place = self._arc_of_row[row[own]]
-        axes, values = self._arc_columns
-        first, second, begin, sweep, radius, last = values[place].T
+        axes = self.arcs.axes
+        first, second, begin, sweep, radius, last = self.arcs.values[place].T
         angle = begin + share[own] * sweep
         radius = radius + share[own] * (last - radius)
         points[own, axes[place, 0]] = first + radius * np.cos(angle)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
 from ncscope.kinematics.universal import KinematicsError
-from ncscope.motion.arc import Arc
+from ncscope.motion.arcs import NO_ARCS, Arcs
 from ncscope.motion.paths import Paths
 
 FINEST = 1e-4
@@ -43,7 +43,7 @@ class Points:
 
 def needs_points(coordinates: Coordinates, paths: Paths) -> bool:
     """Whether a straight line between the ends of some path is not the path itself."""
-    return bool(paths.arcs) or _bent(coordinates)
+    return len(paths.arcs) > 0 or _bent(coordinates)
 
 
 def _bent(coordinates: Coordinates) -> bool:
@@ -98,7 +98,7 @@ def _sample(
     row, share, coarse = _breaks(coordinates, paths, tolerance)
     start = np.concatenate([[0.0], share[:-1]]) * (share > np.roll(share, 1))
     open_, done = _Segments.between(coordinates, paths, row, start, share, before), []
-    curved = _bent(coordinates) or any(a.is_spiral for a in paths.arcs.values())
+    curved = _bent(coordinates) or paths.arcs.any_spiral
     for depth in range(DEEPEST if curved else 0):
         bad, broken = _deviating(coordinates, paths, open_, tolerance)
         coarse |= set(open_.row[broken].tolist())
@@ -128,7 +128,7 @@ def _axis_paths(coordinates: Coordinates, paths: Paths, before: Array, acs: Arra
         asked[:, list(active.model.orientation)] = 0.0
     way = acs - before
     way -= coordinates.modulo.whole_turns(way - asked)
-    return Paths(before, before + way, {})
+    return Paths(before, before + way, NO_ARCS)
 
 
 def _read_back(coordinates: Coordinates, paths: Paths, points: Points) -> Points:
@@ -197,26 +197,22 @@ def _breaks(
     coordinates: Coordinates, paths: Paths, tolerance: float
 ) -> tuple[NDArray[np.int64], Array, set[int]]:
     """The first points: the ends of straight paths, equal angles on arcs."""
-    counts = np.ones(len(paths), dtype=np.int64)
-    coarse = set()
-    for index, arc in paths.arcs.items():
-        scale = coordinates.contour.factors(coordinates.axis_count)[arc.axes[0]]
-        wanted = _arc_points(arc, float(scale) * arc.radius, tolerance)
-        if wanted > MOST_POINTS:
-            coarse.add(index)
-        counts[index] = min(wanted, MOST_POINTS)
+    counts, arcs = np.ones(len(paths), dtype=np.int64), paths.arcs
+    scale = coordinates.contour.factors(coordinates.axis_count)[arcs.axes[:, 0]]
+    wanted = _arc_points(arcs, scale * arcs.radius, tolerance)
+    coarse = set(arcs.row[wanted > MOST_POINTS].tolist())
+    counts[arcs.row] = np.minimum(wanted, MOST_POINTS)
     row = np.repeat(np.arange(len(paths)), counts)
     first = np.repeat(np.cumsum(counts) - counts, counts)
     share = (np.arange(len(row)) - first + 1) / counts[row]
     return row, share, coarse
 
 
-def _arc_points(arc: Arc, radius: float, tolerance: float) -> int:
-    """Segments of an arc whose sagitta is below the tolerance; at least four a full turn."""
-    flat = max(-1.0, 1.0 - tolerance / radius)
-    step = min(math.pi / 2 * (1 + 1e-9), 2 * math.acos(flat) * (1 - 1e-6))
-    step = max(step, 1e-9)
-    return max(1, math.ceil(abs(arc.sweep_rad) / step))
+def _arc_points(arcs: Arcs, radius: Array, tolerance: float) -> Array:
+    """Segments of arcs whose sagitta is below the tolerance; at least four a full turn."""
+    flat = np.maximum(-1.0, 1.0 - tolerance / radius)
+    step = np.minimum(math.pi / 2 * (1 + 1e-9), 2 * np.arccos(flat) * (1 - 1e-6))
+    return np.maximum(1, np.ceil(np.abs(arcs.sweep_rad) / np.maximum(step, 1e-9)))
 
 
 def _deviating(

@@ -15,11 +15,13 @@ from numpy.typing import NDArray
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
-from ncscope.motion.arc import Arc
+from ncscope.motion.arcs import Arcs
 from ncscope.motion.paths import Paths
 
 EVEN_POINTS = 24
 """Points of an arc under a kinematics, beside those where the tool tip turns back."""
+CHUNK = 200_000
+"""Points that are computed together: bounds the memory."""
 SMALLEST = 1e-9
 """Parts of the radius below which an axis does not take part in an arc."""
 
@@ -38,39 +40,45 @@ def turning_points(coordinates: Coordinates, paths: Paths, near: Array) -> Turni
     near: (m, n) axis positions at the ends of the paths. Exact without a kinematics on arcs whose
     radius stays; else the points are close to the farthest ones.
     """
-    if not paths.arcs:
+    if not len(paths.arcs):
         return None
     n, paths = coordinates.axis_count, paths.under(coordinates)
     slopes = coordinates.to_mcs(np.eye(n)) - coordinates.to_mcs(np.zeros(n))
-    place, share = _shares(list(paths.arcs.values()), slopes[:, :3])
+    place, share = _shares(paths.arcs, slopes[:, :3])
     if coordinates.kinematics is not None:
         even = np.arange(1, EVEN_POINTS) / EVEN_POINTS
         place = np.append(place, np.repeat(np.arange(len(paths.arcs)), len(even)))
         share = np.append(share, np.tile(even, len(paths.arcs)))
     if len(place) == 0:
         return None
-    row = np.array(list(paths.arcs), dtype=np.int64)[place]
+    row = paths.arcs.row[place]
+    parts = np.array_split(np.arange(len(row)), math.ceil(len(row) / CHUNK))
     try:
-        return TurningPoints(row, coordinates.to_axes(paths.at(row, share), near=near[row]))
+        acs = [
+            coordinates.to_axes(paths.at(row[part], share[part]), near=near[row[part]])
+            for part in parts
+        ]
     except KinematicsError:  # the ends can be reached, so the block was accepted
         return None
+    return TurningPoints(row, np.concatenate(acs))
 
 
-def _shares(arcs: list[Arc], slopes: Array) -> tuple[NDArray[np.int64], Array]:
+def _shares(arcs: Arcs, slopes: Array) -> tuple[NDArray[np.int64], Array]:
     """Arcs (k,) and shares (k,) of them, ends left out, at which a main axis turns back.
 
     slopes: (n, 3) how far the main axes go for one millimetre of each programmed axis.
     """
-    begin, sweep = np.array([(arc.start_rad, arc.sweep_rad) for arc in arcs]).T
-    plane = np.array([arc.axes for arc in arcs])
+    plane, (begin, sweep) = arcs.axes, arcs.values[:, 2:4].T
     low = np.minimum(begin, begin + sweep)
-    most = math.ceil(float(np.abs(sweep).max()) / math.pi) + 1
+    most = np.ceil(np.abs(sweep) / math.pi).astype(np.int64) + 1
+    place = np.repeat(np.arange(len(arcs)), most)
+    half_turn = np.arange(len(place)) - np.repeat(np.cumsum(most) - most, most)
     places, shares = [], []
     for along, across in zip(slopes[plane[:, 0]].T, slopes[plane[:, 1]].T, strict=True):
         farthest = np.arctan2(across, along)
         first = farthest + np.ceil((low - farthest) / math.pi) * math.pi
-        share = (first[:, None] + np.arange(most) * math.pi - begin[:, None]) / sweep[:, None]
-        inside = (share > 0.0) & (share < 1.0) & (np.hypot(along, across) > SMALLEST)[:, None]
-        places.append(np.nonzero(inside)[0])
+        share = (first[place] + half_turn * math.pi - begin[place]) / sweep[place]
+        inside = (share > 0.0) & (share < 1.0) & (np.hypot(along, across) > SMALLEST)[place]
+        places.append(place[inside])
         shares.append(share[inside])
     return np.concatenate(places), np.concatenate(shares)

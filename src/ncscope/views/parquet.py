@@ -25,12 +25,14 @@ class ParquetWriter:
         empty = no_moves(axes).to_arrow(axes, sampled)
         self._file = Arrow(path, empty.schema, **parquet_options(empty.schema))
         self._waiting: list[Any] = []
+        self._rows = 0
 
     def write(self, stretch: Stretch) -> None:
         if not set(stretch.axes) <= set(self.axes):
             raise NewAxis
         self._waiting.append(stretch.to_arrow(self.axes, self.sampled))
-        if sum(map(len, self._waiting)) >= ROWS:
+        self._rows += len(stretch)
+        if self._rows >= ROWS:
             self._flush()
 
     def finish(self, result: Trajectory | None, ok: bool) -> None:
@@ -44,3 +46,4 @@ class ParquetWriter:
         if self._waiting:
             self._file.write_table(pyarrow.concat_tables(self._waiting), row_group_size=1 << 20)
             self._waiting.clear()
+            self._rows = 0
