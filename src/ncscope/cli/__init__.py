@@ -1,6 +1,6 @@
 """The command line: arguments to API to views, nothing else.
 
-One module per command; `screen`, `options` and `inputs` hold what they share,
+One module per command; `options`, `inputs`, `files` and `screen` hold what they share,
 `ending` is how the process ends.
 Exit codes: 0 the program ran, 1 it ended with an error, 2 the command was used wrongly.
 """

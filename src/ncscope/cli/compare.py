@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ncscope.cli.files import text_output
 from ncscope.cli.kin_options import (
     FormatOption,
     IdOption,
@@ -21,6 +21,7 @@ from ncscope.cli.pose_input import grid_rows, poses_file
 from ncscope.cli.screen import console, fail
 
 if TYPE_CHECKING:
+    from ncscope.frames import Array
     from ncscope.kinematics.comparison import Comparison
 
 
@@ -48,15 +49,20 @@ def compare_command(
     if (poses is None) == (not grid):
         fail("which poses? give --poses FILE, or --grid X=-100:100:5 C=-180:180:7 ..")
     a, b = universal_kinematics(first, id), universal_kinematics(second, id)
-    if poses is not None:
-        program = poses_file(poses).rows(a.axis_names, "pcs_")
-    else:
-        program = grid_rows(grid or (), a.axis_names)
+    program = _rows(poses, grid, a.axis_names)
     try:
         item = compare(a, b, program, tool_length)
     except KinematicsError as error:
         fail(f"{error.id}: {error.message}", code=1)
     _write(shape, out, item, rows)
+    _say_unsolved(item)
+
+
+def _rows(poses: Path | None, grid: list[str] | None, names: tuple[str, ...]) -> Array:
+    """Programmed values (n_poses, n_channel), mm and degrees."""
+    if poses is not None:
+        return poses_file(poses).rows(names, "pcs_")
+    return grid_rows(grid or (), names)
 
 
 def _write(shape: str, out: Path | None, item: Comparison, rows: bool) -> None:
@@ -67,24 +73,12 @@ def _write(shape: str, out: Path | None, item: Comparison, rows: bool) -> None:
         if rows:
             terminal.print(view.differences_table(item))
         terminal.print(view.comparison_table(item))
-        _say_unsolved(item)
         return
-
-    def write(stream) -> None:
+    with text_output(out) as stream:
         if shape == "csv":
             view.write_comparison_csv(stream, item)
         else:
             view.write_comparison_jsonl(stream, item, rows)
-
-    if out is None:
-        write(sys.stdout)
-    else:
-        try:
-            with out.open("w", encoding="utf-8", newline="") as stream:
-                write(stream)
-        except OSError as error:
-            fail(f"cannot write {out}: {error.strerror}")
-    _say_unsolved(item)
 
 
 def _say_unsolved(item: Comparison) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ncscope.cli.files import reading, writing
 from ncscope.cli.screen import fail, show_diagnostics
 
 if TYPE_CHECKING:
@@ -37,6 +38,18 @@ def convert_command(
     """Write a list in another spelling; comments, order and all other characters stay."""
     from ncscope.lists.files import read_document
 
+    _check(path, to, fields, param, kin)
+    with reading(path):
+        document = read_document(path)
+    if kin is not None:
+        data = _library(document, kin, to is Syntax.OLD)
+    else:
+        data = _spelling(document, to, fields, param)
+    _write(out, data)
+
+
+def _check(path: Path, to: Syntax | None, fields: bool, param: bool, kin: int | None) -> None:
+    """Ends the process for options that do not go together, and for a path without a list."""
     if fields and param:
         fail("--fields and --param are opposites")
     if kin is not None and (fields or param):
@@ -47,21 +60,14 @@ def convert_command(
         fail(f"{path} is a folder; give one of its lists, such as {path / 'sda.lis'}")
     if not path.is_file():
         fail(f"there is no list {path}")
-    try:
-        document = read_document(path)
-    except OSError as error:
-        fail(f"cannot read {path}: {error.strerror}")
-    if kin is not None:
-        data = _library(document, kin, to is Syntax.OLD)
-    else:
-        data = _spelling(document, to, fields, param)
+
+
+def _write(out: Path | None, data: bytes) -> None:
     if out is None:
         typer.echo(data, nl=False)
         return
-    try:
+    with writing(out):
         out.write_bytes(data)
-    except OSError as error:
-        fail(f"cannot write {out}: {error.strerror}")
 
 
 def _library(document: ListDocument, id: int, old_syntax: bool) -> bytes:

@@ -7,21 +7,11 @@ from typing import Annotated
 
 import typer
 
-from ncscope.cli.inputs import run_program
-from ncscope.cli.options import (
-    ClampOption,
-    FoldersOption,
-    KinematicsOption,
-    MachineOption,
-    ManualOption,
-    ProbeOption,
-    SetOption,
-    SkipOption,
-    read_levels,
-    read_place,
-)
-from ncscope.cli.screen import console, fail, show_diagnostics, show_table
-from ncscope.cli.settings import read_settings
+from ncscope.cli.groups import with_groups
+from ncscope.cli.inputs import read_inputs
+from ncscope.cli.options import AnswerOptions, MachineOptions, StartOptions
+from ncscope.cli.place import fail_without_block, read_place
+from ncscope.cli.screen import console, show_table
 
 
 class ExplainFormat(StrEnum):
@@ -31,41 +21,33 @@ class ExplainFormat(StrEnum):
     JSON = "json"
 
 
+@with_groups
 def explain_command(
     place: Annotated[str, typer.Argument(metavar="PROGRAM:LINE", help="Or PROGRAM:N40.")],
-    machine: MachineOption = None,
-    kinematics: KinematicsOption = None,
+    *,
+    setup: MachineOptions,
     format: Annotated[
         ExplainFormat, typer.Option("--format", help="text or json.")
     ] = ExplainFormat.TEXT,
-    clamp: ClampOption = None,
-    skip: SkipOption = "",
-    probe: ProbeOption = None,
-    manual: ManualOption = None,
-    values: SetOption = None,
-    folders: FoldersOption = None,
+    start: StartOptions,
+    answers: AnswerOptions,
 ) -> None:
     """Take the axis positions of one block apart, each part with the line that set it."""
     import json
 
-    from ncscope.execution import Options
     from ncscope.views.table import explain_table
 
-    path, line, number = read_place(place)
-    options = Options(clamp, read_levels(skip), external=read_settings(values))
-    result, found, source = run_program(
-        path, machine, options, probe, folders or (), kinematics, manual
-    )
+    asked = read_place(place)
+    inputs = read_inputs(asked.path, setup, start, answers)
+    result = inputs.run()
     try:
-        if number is not None:
-            line = result.line_of_block(number)
+        line = asked.line_in(result)
         explanation = result.explain(line=line)
     except KeyError as error:
-        show_diagnostics(d for d in [*found, *result.diagnostics] if d.is_error)
-        fail(str(error.args[0]), code=1)
+        fail_without_block(error, [*inputs.found, *result.diagnostics])
     if format is ExplainFormat.JSON:
         typer.echo(json.dumps(explanation.as_dict(), ensure_ascii=False, indent=1))
         return
-    terminal = console()
-    terminal.print(f"{explanation.file}:{line}  {source.source.line_text(line)}", markup=False)
+    text = inputs.program.source.line_text(line)
+    console().print(f"{explanation.file}:{line}  {text}", markup=False)
     show_table(explain_table(explanation))

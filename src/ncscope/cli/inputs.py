@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ncscope.cli.files import reading
+from ncscope.cli.options import AnswerOptions, MachineOptions, StartOptions, read_levels
 from ncscope.cli.screen import fail, progress_bar
-from ncscope.cli.settings import typed_settings
+from ncscope.cli.settings import Values, read_settings, typed_settings
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from ncscope.channel.given import GivenRows
     from ncscope.diagnostics import Diagnostic, Source
     from ncscope.machine import Machine
@@ -27,6 +27,11 @@ class Inputs:
     found: list[Diagnostic]
     program: Program
     options: Options
+
+    @property
+    def faults(self) -> list[Diagnostic]:
+        """The errors and warnings of the files."""
+        return [d for d in self.found if d.severity != "note"]
 
     @property
     def usable(self) -> bool:
@@ -46,48 +51,55 @@ class Inputs:
 
 def read_inputs(
     path: Path,
-    machine_path: Path | None,
-    options: Options,
-    probe: Path | None = None,
-    folders: Sequence[Path] = (),
-    kinematics: Path | None = None,
-    manual: Path | None = None,
+    setup: MachineOptions,
+    start: StartOptions,
+    answers: AnswerOptions,
+    *,
+    max_blocks: int = 0,
+    strict: bool = False,
+    sample: float | None = None,
 ) -> Inputs:
-    """Machine, program and answers; ends the process when a file cannot be read."""
-    from ncscope.channel.start import start_state
+    """Machine, program and options; ends the process when a file or an option cannot be read."""
     from ncscope.loading import load_program, subprogram_loader
+    from ncscope.program import Options
 
-    machine, found = read_machine(machine_path, kinematics)
-    if options.clamp is not None and options.clamp not in machine.clamp_positions:
-        has = ", ".join(str(i) for i in sorted(machine.clamp_positions)) or "none"
-        fail(f"clamp position {options.clamp} does not exist; the lists have: {has}")
-    options = replace(options, external=typed_settings(machine, options.external))
-    try:
-        start_state(machine, external=options.external)
-    except KeyError as error:
-        fail(f"--set: {error.args[0]}")
-    try:
+    skip, values = read_levels(start.skip), read_settings(answers.values)
+    machine, found = read_machine(setup.machine, setup.kinematics)
+    _check_clamp(machine, start.clamp)
+    external = _checked_values(machine, values)
+    with reading(path):
         program = load_program(path)
-    except OSError as error:
-        fail(f"cannot read {path}: {error.strerror}")
-    load = subprogram_loader([path.parent, *folders], machine.settings.search_paths)
-    rows = _read_rows(probe, found), _read_rows(manual, found)
-    options = replace(options, probe=rows[0], manual=rows[1], load=load)
+    folders = [path.parent, *(answers.folders or ())]
+    options = Options(
+        clamp=start.clamp,
+        skip=skip,
+        max_blocks=max_blocks,
+        strict=strict,
+        load=subprogram_loader(folders, machine.settings.search_paths),
+        external=external,
+        sample=sample,
+        probe=_read_rows(answers.probe, found),
+        manual=_read_rows(answers.manual, found),
+    )
     return Inputs(machine, found, program, options)
 
 
-def run_program(
-    path: Path,
-    machine_path: Path | None,
-    options: Options,
-    probe: Path | None = None,
-    folders: Sequence[Path] = (),
-    kinematics: Path | None = None,
-    manual: Path | None = None,
-) -> tuple[Trajectory, list[Diagnostic], Program]:
-    """The run of a program, what its files have wrong, and the program."""
-    inputs = read_inputs(path, machine_path, options, probe, folders, kinematics, manual)
-    return inputs.run(), inputs.found, inputs.program
+def _check_clamp(machine: Machine, clamp: int | None) -> None:
+    if clamp is not None and clamp not in machine.clamp_positions:
+        has = ", ".join(str(i) for i in sorted(machine.clamp_positions)) or "none"
+        fail(f"clamp position {clamp} does not exist; the lists have: {has}")
+
+
+def _checked_values(machine: Machine, values: Values) -> Values:
+    """The values of --set as the machine declares their variables."""
+    from ncscope.channel.start import start_state
+
+    values = typed_settings(machine, values)
+    try:
+        start_state(machine, external=values)
+    except KeyError as error:
+        fail(f"--set: {error.args[0]}")
+    return values
 
 
 def _read_rows(path: Path | None, found: list[Diagnostic]) -> GivenRows | None:
@@ -95,10 +107,8 @@ def _read_rows(path: Path | None, found: list[Diagnostic]) -> GivenRows | None:
 
     if path is None:
         return None
-    try:
+    with reading(path):
         rows, problems = load_rows(path)
-    except OSError as error:
-        fail(f"cannot read {path}: {error.strerror}")
     found.extend(problems)
     return rows
 
@@ -121,10 +131,8 @@ def read_machine(
         return machine, found
     from ncscope.loading.user_kinematics import with_user_kinematics
 
-    try:
+    with reading(kinematics):
         machine, problems = with_user_kinematics(machine, kinematics)
-    except OSError as error:
-        fail(f"cannot read {kinematics}: {error.strerror}")
     return machine, [*found, *problems]
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ncscope.cli.compare import compare_command
+from ncscope.cli.extras import need_parquet
+from ncscope.cli.files import text_output, writing
+from ncscope.cli.groups import with_groups
 from ncscope.cli.kin_options import (
     FormatOption,
     IdOption,
@@ -18,7 +20,7 @@ from ncscope.cli.kin_options import (
     output_form,
 )
 from ncscope.cli.kinematics import chosen_kinematics
-from ncscope.cli.options import KinematicsOption, MachineOption
+from ncscope.cli.options import MachineOptions
 from ncscope.cli.pose_input import near_values, poses_file, word_row
 from ncscope.cli.screen import console, fail
 from ncscope.cli.words import WordsCommand, read_words
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
     from ncscope.frames import Array
     from ncscope.kinematics import KinematicStep
     from ncscope.kinematics.poses import Poses
+    from ncscope.views.poses import Explain
 
 kin_app = typer.Typer(
     no_args_is_help=True, help="Axis values and tool poses through a machine's kinematics."
@@ -42,14 +45,15 @@ NearOption = Annotated[
 
 
 @kin_app.command("forward", cls=WordsCommand)
+@with_groups
 def forward_command(
     words: Words = None,
     axes: Annotated[
         list[str] | None, typer.Option("--axes", metavar="X=.. Y=..", help="Axis values.")
     ] = None,
     poses: PosesOption = None,
-    machine: MachineOption = None,
-    kinematics: KinematicsOption = None,
+    *,
+    setup: MachineOptions,
     id: IdOption = None,
     tool_length: LengthOption = 0.0,
     format: FormatOption = None,
@@ -60,7 +64,7 @@ def forward_command(
     from ncscope.kinematics.poses import poses_of_axes, poses_of_step
 
     shape = output_form(format, out, poses)
-    kin, names = chosen_kinematics(machine, id, kinematics)
+    kin, names = chosen_kinematics(setup.machine, id, setup.kinematics)
     given = [*(words or []), *(axes or [])]
     if poses is not None:
         _one_source(bool(given))
@@ -78,6 +82,7 @@ def forward_command(
 
 
 @kin_app.command("inverse", cls=WordsCommand)
+@with_groups
 def inverse_command(
     words: Words = None,
     program: Annotated[
@@ -93,8 +98,8 @@ def inverse_command(
     poses: PosesOption = None,
     near: NearOption = None,
     both: Annotated[bool, typer.Option("--both", help="Both poses of the rotary axes.")] = False,
-    machine: MachineOption = None,
-    kinematics: KinematicsOption = None,
+    *,
+    setup: MachineOptions,
     id: IdOption = None,
     tool_length: LengthOption = 0.0,
     format: FormatOption = None,
@@ -104,7 +109,7 @@ def inverse_command(
     from ncscope.kinematics import KinematicsError
 
     shape = output_form(format, out, poses)
-    kin, names = chosen_kinematics(machine, id, kinematics)
+    kin, names = chosen_kinematics(setup.machine, id, setup.kinematics)
     given = [*(words or []), *(program or [])]
     start = near_values(near, names)
     by_tool = tip is not None or direction is not None
@@ -202,20 +207,14 @@ def _write(
     raise typer.Exit(1 if failed else 0)
 
 
-def _write_file(shape: str, out: Path | None, found: Poses, explain) -> None:
+def _write_file(shape: str, out: Path | None, found: Poses, explain: Explain) -> None:
     from ncscope.views import poses as view
 
-    writers = {"csv": view.write_poses_csv, "jsonl": view.write_poses_jsonl}
-    if out is None:
-        writers[shape](sys.stdout, found, explain)
-        return
-    try:
-        if shape == "parquet":
+    if shape == "parquet" and out is not None:
+        need_parquet()
+        with writing(out):
             view.write_poses_parquet(out, found, explain)
-        else:
-            with out.open("w", encoding="utf-8", newline="") as stream:
-                writers[shape](stream, found, explain)
-    except ImportError:
-        fail("Parquet needs pyarrow: pip install 'ncscope[table]'")
-    except OSError as error:
-        fail(f"cannot write {out}: {error.strerror}")
+        return
+    write = {"csv": view.write_poses_csv, "jsonl": view.write_poses_jsonl}[shape]
+    with text_output(out) as stream:
+        write(stream, found, explain)

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from ncscope.cli.files import same_file
 from ncscope.cli.screen import fail
 
 
@@ -46,7 +47,7 @@ def output_form(format: KinFormat | None, out: Path | None, poses: Path | None) 
     """The form of the output: that of --format, else of the file's name."""
     if out is None:
         return str(format or KinFormat.TABLE)
-    if poses is not None and out.exists() and poses.exists() and out.samefile(poses):
+    if poses is not None and same_file(out, poses):
         fail(f"--out {out} is the table that is read")
     shape = str(format) if format else out.suffix.lower().removeprefix(".")
     if shape not in ("csv", "jsonl", "parquet"):

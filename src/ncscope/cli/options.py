@@ -1,7 +1,12 @@
-"""Options that several commands share, and how their texts are read."""
+"""Options that several commands share.
+
+An option that every run needs is a field of one of the groups here; `inputs.read_inputs` says what
+becomes of it. No other place names it.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -9,42 +14,66 @@ import typer
 
 from ncscope.cli.screen import fail
 
-MachineOption = Annotated[
-    Path | None,
-    typer.Option("--machine", "-m", help="Folder of lists, start-up list, or one list."),
-]
-KinematicsOption = Annotated[
-    Path | None,
-    typer.Option("--kinematics", help="Python file with kinematics of the user; it is run."),
-]
-ClampOption = Annotated[
-    int | None, typer.Option("--clamp", help="Clamp position handed over at program start.")
-]
-SkipOption = Annotated[
-    str, typer.Option("--skip", help="Skip levels that are on, for example 1,3; / is level 1.")
-]
 
-ProbeOption = Annotated[
-    Path | None,
-    typer.Option("--probe", help="CSV: a row for each measuring run, a column for each axis."),
-]
+@dataclass(frozen=True)
+class MachineOptions:
+    """The machine."""
 
-ManualOption = Annotated[
-    Path | None,
-    typer.Option("--manual", help="CSV of jog increments: a row for each G200 and G201."),
-]
+    machine: Annotated[
+        Path | None,
+        typer.Option("--machine", "-m", help="Folder of lists, start-up list, or one list."),
+    ] = None
+    kinematics: Annotated[
+        Path | None,
+        typer.Option("--kinematics", help="Python file with kinematics of the user; it is run."),
+    ] = None
 
-SetOption = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="V.E.NAME=VALUE", help="Value of a variable of the PLC."),
-]
-FoldersOption = Annotated[
-    list[Path] | None,
-    typer.Option("--subprograms", help="Another folder in which called files may lie."),
-]
+
+@dataclass(frozen=True)
+class StartOptions:
+    """What the control is told when the program starts."""
+
+    clamp: Annotated[
+        int | None, typer.Option("--clamp", help="Clamp position handed over at program start.")
+    ] = None
+    skip: Annotated[
+        str, typer.Option("--skip", help="Skip levels that are on, for example 1,3; / is level 1.")
+    ] = ""
+
+
+@dataclass(frozen=True)
+class AnswerOptions:
+    """What probe, operator, PLC and disk answer when the program asks them."""
+
+    probe: Annotated[
+        Path | None,
+        typer.Option("--probe", help="CSV: a row for each measuring run, a column for each axis."),
+    ] = None
+    manual: Annotated[
+        Path | None,
+        typer.Option("--manual", help="CSV of jog increments: a row for each G200 and G201."),
+    ] = None
+    values: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="V.E.NAME=VALUE", help="Value of a variable of the PLC."),
+    ] = None
+    folders: Annotated[
+        list[Path] | None,
+        typer.Option("--subprograms", help="Another folder in which called files may lie."),
+    ] = None
+
+
 BlocksOption = Annotated[
     int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
 ]
+SampleOption = Annotated[
+    float,
+    typer.Option(
+        "--sample", help="Chord error of arcs and turns, mm and degrees; 0 for block ends only."
+    ),
+]
+FINE_SAMPLE = 0.02
+"""mm and degrees: finer than a picture shows."""
 
 
 def read_levels(text: str) -> frozenset[int]:
@@ -58,10 +87,10 @@ def read_levels(text: str) -> frozenset[int]:
     return levels
 
 
-def read_place(text: str) -> tuple[Path, int, int | None]:
-    """PROGRAM:LINE or PROGRAM:N40 as path, line and block number."""
-    name, _, where = text.rpartition(":")
-    number = where[1:] if where[:1] in ("N", "n") else None
-    if not name or not (number or where).isdigit():
-        fail(f"{text}: write PROGRAM:LINE or PROGRAM:N40")
-    return Path(name), 0 if number else int(where), int(number) if number else None
+def read_sample(tolerance: float) -> float | None:
+    """The tolerance for points along the moves, None for 0; ends the process for a wrong one."""
+    from ncscope.motion.sampling import FINEST
+
+    if tolerance != 0 and not tolerance >= FINEST:
+        fail(f"--sample {tolerance:g}: 0, or {FINEST:g} and more (mm and degrees)")
+    return tolerance or None

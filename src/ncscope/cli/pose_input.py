@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from ncscope.cli.files import reading
 from ncscope.cli.screen import fail, show_diagnostics
 from ncscope.cli.words import read_number, read_words
 
@@ -98,10 +99,8 @@ class PoseFile:
         return rows
 
     def _numbers(self, columns: Sequence[str]) -> Array:
-        try:
+        with reading(self.table.path):
             values, found = self.table.numbers(columns)
-        except OSError as error:
-            fail(f"cannot read {self.table.path}: {error.strerror}")
         if found:
             show_diagnostics(found)
             raise typer.Exit(1)
@@ -125,10 +124,8 @@ def poses_file(path: Path) -> PoseFile:
     """The table of --poses."""
     from ncscope.loading.pose_tables import open_pose_table
 
-    try:
+    with reading(path):
         table, found = open_pose_table(path)
-    except OSError as error:
-        fail(f"cannot read {path}: {error.strerror}")
     if table is None:
         show_diagnostics(found)
         raise typer.Exit(1)

@@ -7,29 +7,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ncscope.cli.extras import need_pictures
+from ncscope.cli.files import check_target, write_document
+from ncscope.cli.groups import with_groups
 from ncscope.cli.inputs import read_inputs
 from ncscope.cli.options import (
+    FINE_SAMPLE,
+    AnswerOptions,
     BlocksOption,
-    ClampOption,
-    FoldersOption,
-    KinematicsOption,
-    MachineOption,
-    ManualOption,
-    ProbeOption,
-    SetOption,
-    SkipOption,
-    read_levels,
-)
-from ncscope.cli.plot import (
-    SAMPLE,
+    MachineOptions,
     SampleOption,
-    check_target,
-    need_libraries,
+    StartOptions,
     read_sample,
-    write_picture,
 )
 from ncscope.cli.screen import fail
-from ncscope.cli.settings import read_settings
 
 if TYPE_CHECKING:
     from ncscope.execution import Program
@@ -37,51 +28,45 @@ if TYPE_CHECKING:
     from ncscope.trajectory import Trajectory
 
 
+@with_groups
 def report_command(
     program: Annotated[Path, typer.Argument(help="NC program.")],
     out: Annotated[Path, typer.Option("--out", "-o", help="File: .html.")],
-    machine: MachineOption = None,
-    kinematics: KinematicsOption = None,
+    *,
+    setup: MachineOptions,
     explain: Annotated[
         str,
         typer.Option(
             "--explain", metavar="N40,N60", help="Blocks to explain: N40,N60 or lines: 12,15."
         ),
     ] = "",
-    clamp: ClampOption = None,
-    skip: SkipOption = "",
-    probe: ProbeOption = None,
-    manual: ManualOption = None,
-    values: SetOption = None,
-    folders: FoldersOption = None,
+    start: StartOptions,
+    answers: AnswerOptions,
     max_blocks: BlocksOption = 0,
-    sample: SampleOption = SAMPLE,
+    sample: SampleOption = FINE_SAMPLE,
 ) -> None:
     """Write a run as one document that opens without a network."""
     if out.suffix.lower() != ".html":
         fail(f"--out {out}: the name must end in .html")
-    need_libraries()
+    need_pictures()
     check_target(out, program)
     wanted = _read_blocks(explain)
-    from ncscope.execution import Options
     from ncscope.views.report import Subject, report_page
 
-    tolerance = read_sample(sample)
-    options = Options(
-        clamp, read_levels(skip), max_blocks, sample=tolerance, external=read_settings(values)
+    inputs = read_inputs(
+        program, setup, start, answers, max_blocks=max_blocks, sample=read_sample(sample)
     )
-    inputs = read_inputs(program, machine, options, probe, folders or (), kinematics, manual)
     result = inputs.run()
     subject = Subject(
         program.name,
         inputs.machine,
         result,
-        [d for d in inputs.found if d.severity != "note"],
-        _lists(machine),
-        _in_words(clamp, skip),
+        inputs.faults,
+        _lists(setup.machine),
+        _in_words(start),
         [_explained(result, inputs.program, text) for text in wanted],
     )
-    write_picture(out, report_page(subject))
+    write_document(out, report_page(subject))
     raise typer.Exit(0 if result.ok and inputs.usable else 1)
 
 
@@ -112,6 +97,6 @@ def _lists(machine: Path | None) -> list[tuple[str, str]]:
     return [(f.document.name, LIST_NAMES[f.list_kind]) for f in find_lists(machine)[0]]
 
 
-def _in_words(clamp: int | None, skip: str) -> str:
-    parts = [f"clamp position {clamp}"] if clamp is not None else []
-    return ", ".join([*parts, *([f"skip levels {skip}"] if skip else [])])
+def _in_words(start: StartOptions) -> str:
+    parts = [f"clamp position {start.clamp}"] if start.clamp is not None else []
+    return ", ".join([*parts, *([f"skip levels {start.skip}"] if start.skip else [])])

@@ -4,36 +4,29 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ncscope.cli.inputs import pole_note, read_inputs
-from ncscope.cli.options import (
-    BlocksOption,
-    ClampOption,
-    FoldersOption,
-    KinematicsOption,
-    MachineOption,
-    ManualOption,
-    ProbeOption,
-    SetOption,
-    SkipOption,
-    read_levels,
-)
+from ncscope.cli.extras import need_parquet
+from ncscope.cli.files import check_target
+from ncscope.cli.groups import with_groups
+from ncscope.cli.inputs import Inputs, pole_note, read_inputs
+from ncscope.cli.options import AnswerOptions, BlocksOption, MachineOptions, StartOptions
 from ncscope.cli.screen import console, fail, show_diagnostics, show_table
-from ncscope.cli.settings import read_settings
 from ncscope.cli.writing import Format, write_run
 
 if TYPE_CHECKING:
     from ncscope.trajectory import Trajectory
 
 
+@with_groups
 def run_command(
     program: Annotated[Path, typer.Argument(help="NC program.")],
-    machine: MachineOption = None,
-    kinematics: KinematicsOption = None,
+    *,
+    setup: MachineOptions,
     format: Annotated[
         Format | None, typer.Option("--format", help="table, jsonl, csv or parquet.")
     ] = None,
@@ -41,12 +34,8 @@ def run_command(
     messages: Annotated[
         Path, typer.Option("--messages", help="Folder for the files of #MSG SAVE.")
     ] = Path("."),
-    clamp: ClampOption = None,
-    skip: SkipOption = "",
-    probe: ProbeOption = None,
-    manual: ManualOption = None,
-    values: SetOption = None,
-    folders: FoldersOption = None,
+    start: StartOptions,
+    answers: AnswerOptions,
     max_blocks: BlocksOption = 0,
     strict: Annotated[bool, typer.Option("--strict", help="A warning stops the run.")] = False,
     sample: Annotated[
@@ -60,38 +49,23 @@ def run_command(
     ] = 0,
 ) -> None:
     """Run an NC program and show where the tool and every axis go."""
-    from ncscope.execution import Options
-    from ncscope.motion.sampling import FINEST
-    from ncscope.views.message_files import write_messages
-
     shape = _format(format, out)
-    if out is not None and out.exists() and program.exists() and out.samefile(program):
-        fail(f"--out {out} is the program itself")
-    if sample is not None and not sample >= FINEST:
-        fail(f"--sample {sample:g}: the tolerance has to be {FINEST:g} or more (mm and degrees)")
-    external = read_settings(values)
-    options = Options(
-        clamp, read_levels(skip), max_blocks, strict, external=external, sample=sample
+    if out is not None:
+        check_target(out, program)
+    _check_sample(sample)
+    inputs = read_inputs(
+        program, setup, start, answers, max_blocks=max_blocks, strict=strict, sample=sample
     )
-    inputs = read_inputs(program, machine, options, probe, folders or (), kinematics, manual)
-    found = [d for d in inputs.found if d.severity != "note"]
-
-    def judge(result: Trajectory) -> tuple[Trajectory, bool]:
-        said = (*result.diagnostics, *write_messages(messages, result.messages, (program,)))
-        ok = result.ok and not any(d.is_error for d in (*found, *said))
-        return replace(result, diagnostics=said), ok
-
     if shape is Format.TABLE:
-        result, ok = judge(inputs.run())
-    else:
-        cores = jobs or min(2, os.cpu_count() or 1)
-        axes, sampled = inputs.machine.axis_names, sample is not None
-        result, ok = write_run(shape, out, cores, axes, sampled, found, inputs.run, judge)
-    if shape is not Format.JSONL:
-        near = pole_note(result, inputs.program.source)
-        show_diagnostics([*found, *result.diagnostics, *near])
-    if shape is Format.TABLE:
+        result, ok = _judge(inputs, messages, program, inputs.run())
+        _say(inputs, result)
         _show_run(result, ok)
+    else:
+        judge = partial(_judge, inputs, messages, program)
+        cores = jobs or min(2, os.cpu_count() or 1)
+        result, ok = write_run(shape, out, cores, inputs, judge)
+        if shape is not Format.JSONL:
+            _say(inputs, result)
     raise typer.Exit(0 if ok else 1)
 
 
@@ -103,7 +77,32 @@ def _format(format: Format | None, out: Path | None) -> Format:
         fail("--out writes csv, jsonl or parquet: give --format csv, or name the file x.csv")
     if out is None and shape is Format.PARQUET:
         fail("--format parquet needs --out FILE")
+    if shape is Format.PARQUET:
+        need_parquet()
     return shape
+
+
+def _check_sample(tolerance: float | None) -> None:
+    from ncscope.motion.sampling import FINEST
+
+    if tolerance is not None and not tolerance >= FINEST:
+        fail(f"--sample {tolerance:g}: the tolerance has to be {FINEST:g} or more (mm and degrees)")
+
+
+def _judge(
+    inputs: Inputs, messages: Path, program: Path, result: Trajectory
+) -> tuple[Trajectory, bool]:
+    """The result with what its messages have wrong, which are written here; whether it is ok."""
+    from ncscope.views.message_files import write_messages
+
+    said = (*result.diagnostics, *write_messages(messages, result.messages, (program,)))
+    ok = result.ok and not any(d.is_error for d in (*inputs.faults, *said))
+    return replace(result, diagnostics=said), ok
+
+
+def _say(inputs: Inputs, result: Trajectory) -> None:
+    near = pole_note(result, inputs.program.source)
+    show_diagnostics([*inputs.faults, *result.diagnostics, *near])
 
 
 def _show_run(result: Trajectory, ok: bool) -> None:

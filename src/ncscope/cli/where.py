@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from enum import StrEnum
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ncscope.cli.inputs import run_program
-from ncscope.cli.options import (
-    ClampOption,
-    FoldersOption,
-    KinematicsOption,
-    MachineOption,
-    ManualOption,
-    ProbeOption,
-    SetOption,
-    SkipOption,
-    read_levels,
-    read_place,
-)
-from ncscope.cli.screen import console, fail, show_diagnostics, show_table
-from ncscope.cli.settings import read_settings
+from ncscope.cli.groups import with_groups
+from ncscope.cli.inputs import read_inputs
+from ncscope.cli.options import AnswerOptions, MachineOptions, StartOptions
+from ncscope.cli.place import fail_without_block, read_place
+from ncscope.cli.screen import console, fail, show_table
 from ncscope.cli.words import read_positions
+
+if TYPE_CHECKING:
+    from ncscope.explanation import Whereabouts
 
 
 class WhereFormat(StrEnum):
@@ -33,6 +25,7 @@ class WhereFormat(StrEnum):
     JSON = "json"
 
 
+@with_groups
 def where_command(
     at: Annotated[str, typer.Option("--at", metavar="PROGRAM:LINE", help="Or PROGRAM:N40.")],
     axes: Annotated[
@@ -41,43 +34,41 @@ def where_command(
     more: Annotated[
         list[str] | None, typer.Argument(metavar="Y=2 ..", help="Further axes.", hidden=True)
     ] = None,
-    machine: MachineOption = None,
-    kinematics: KinematicsOption = None,
+    *,
+    setup: MachineOptions,
     format: Annotated[
         WhereFormat, typer.Option("--format", help="table or json.")
     ] = WhereFormat.TABLE,
-    clamp: ClampOption = None,
-    skip: SkipOption = "",
-    probe: ProbeOption = None,
-    manual: ManualOption = None,
-    values: SetOption = None,
-    folders: FoldersOption = None,
+    start: StartOptions,
+    answers: AnswerOptions,
 ) -> None:
     """Where axis positions are in PCS, WCS and MCS under the state of a block."""
-    from ncscope.execution import Options
     from ncscope.kinematics.universal import KinematicsError
-    from ncscope.views.table import where_table
 
     positions = read_positions([*axes, *(more or ())])
-    path, line, number = read_place(at)
-    options = Options(clamp, read_levels(skip), external=read_settings(values))
-    result, found, source = run_program(
-        path, machine, options, probe, folders or (), kinematics, manual
-    )
+    asked = read_place(at)
+    inputs = read_inputs(asked.path, setup, start, answers)
+    result = inputs.run()
     try:
-        if number is not None:
-            line = result.line_of_block(number)
+        line = asked.line_in(result)
         place = result.where(positions, line=line)
     except KeyError as error:
-        show_diagnostics(d for d in [*found, *result.diagnostics] if d.is_error)
-        fail(str(error.args[0]), code=1)
+        fail_without_block(error, [*inputs.found, *result.diagnostics])
     except KinematicsError as error:
         fail(f"the axis positions have no programmed values: {error.message}", code=1)
+    _show(place, f"{place.file}:{line}  {inputs.program.source.line_text(line)}", format)
+
+
+def _show(place: Whereabouts, block: str, format: WhereFormat) -> None:
+    import json
+
+    from ncscope.views.table import where_table
+
     if format is WhereFormat.JSON:
         typer.echo(json.dumps(place.as_dict(), ensure_ascii=False, indent=1))
         return
     terminal = console()
-    terminal.print(f"{place.file}:{line}  {source.source.line_text(line)}", markup=False)
+    terminal.print(block, markup=False)
     show_table(where_table(place))
     if place.assumed:
         names = " ".join(place.assumed)

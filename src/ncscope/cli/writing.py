@@ -5,17 +5,20 @@ from __future__ import annotations
 import sys
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, TextIO
+from typing import TYPE_CHECKING, Protocol
 
-from ncscope.cli.screen import fail
+from ncscope.cli.files import text_output, writing
 
 if TYPE_CHECKING:
-    from ncscope.diagnostics import Diagnostic
+    from concurrent.futures import Future
+
+    from ncscope.cli.inputs import Inputs
     from ncscope.trajectory import Stretch, Trajectory
+
+    Judge = Callable[[Trajectory], tuple[Trajectory, bool]]
 
 WAITING = 3
 """Stretches that may wait for a writer in the background: bounds the memory."""
@@ -44,6 +47,8 @@ class InBackground:
     """A writer in a thread of its own: while it writes, the program runs on."""
 
     def __init__(self, writer: Writer) -> None:
+        from concurrent.futures import ThreadPoolExecutor
+
         self._writer = writer
         self._thread = ThreadPoolExecutor(1)
         self._waiting: deque[Future[None]] = deque()
@@ -64,40 +69,33 @@ class InBackground:
 
 
 def write_run(
-    shape: Format,
-    out: Path | None,
-    jobs: int,
-    axes: tuple[str, ...],
-    sampled: bool,
-    before: list[Diagnostic],
-    run: Callable[[Callable[[Stretch], None] | None], Trajectory],
-    judge: Callable[[Trajectory], tuple[Trajectory, bool]],
+    shape: Format, out: Path | None, jobs: int, inputs: Inputs, judge: Judge
 ) -> tuple[Trajectory, bool]:
     """Runs and writes what the run gives; returns the result without its moves, and the judgment.
 
-    run: the run for a sink of moves. judge: the result with all that is to
-    be said, and whether it is ok. When an axis turns up that
+    judge: the result with all that is to be said, and whether it is ok. When an axis turns up that
     the first columns do not have, the program is run once more with all of its axes.
     """
     from ncscope.views.records import NewAxis, write_csv
 
     if out is None and shape is Format.CSV:  # what is in a pipe cannot be taken back
-        result, ok = judge(run(None))
+        result, ok = judge(inputs.run())
         write_csv(sys.stdout, result)
         return result, ok
     try:
-        return _written(shape, out, jobs, axes, sampled, before, run, judge)
+        return _written(shape, out, jobs, inputs, inputs.machine.axis_names, judge)
     except NewAxis:
-        all_axes = run(None).axes
-        return _written(shape, out, jobs, all_axes, sampled, before, run, judge)
+        return _written(shape, out, jobs, inputs, inputs.run().axes, judge)
 
 
-def _written(shape, out, jobs, axes, sampled, before, run, judge) -> tuple[Trajectory, bool]:
+def _written(
+    shape: Format, out: Path | None, jobs: int, inputs: Inputs, axes: tuple[str, ...], judge: Judge
+) -> tuple[Trajectory, bool]:
     result, ok = None, False
-    with _writer(shape, out, axes, sampled, before) as plain:
+    with _writer(shape, out, axes, inputs) as plain:
         writer = InBackground(plain) if jobs > 1 else plain
         try:
-            result, ok = judge(run(writer.write))
+            result, ok = judge(inputs.run(writer.write))
         finally:
             writer.finish(result, ok)
     return result, ok
@@ -105,26 +103,20 @@ def _written(shape, out, jobs, axes, sampled, before, run, judge) -> tuple[Traje
 
 @contextmanager
 def _writer(
-    shape: Format, out: Path | None, axes: tuple[str, ...], sampled: bool, before: list[Diagnostic]
+    shape: Format, out: Path | None, axes: tuple[str, ...], inputs: Inputs
 ) -> Iterator[Writer]:
     from ncscope.views.records import CsvWriter, JsonlWriter
 
-    def of_text(stream: TextIO) -> Writer:
-        if shape is Format.JSONL:
-            return JsonlWriter(stream, before)
-        return CsvWriter(stream, axes, sampled)
+    sampled = inputs.options.sample is not None
 
-    try:
-        if out is None:
-            yield of_text(sys.stdout)
-        elif shape is Format.PARQUET:
-            from ncscope.views.parquet import ParquetWriter
+    if shape is Format.PARQUET and out is not None:
+        from ncscope.views.parquet import ParquetWriter
 
+        with writing(out):
             yield ParquetWriter(out, axes, sampled)
+        return
+    with text_output(out) as stream:
+        if shape is Format.JSONL:
+            yield JsonlWriter(stream, inputs.faults)
         else:
-            with out.open("w", encoding="utf-8", newline="") as stream:
-                yield of_text(stream)
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        fail(f"cannot write {out or 'the output'}: {error.strerror or error}")
+            yield CsvWriter(stream, axes, sampled)

@@ -1,0 +1,45 @@
+"""Options in groups: a dataclass of options stands for all of them in a command.
+
+    @with_groups
+    def run_command(program: ..., *, setup: MachineOptions, format: ... = None) -> None:
+
+gives the command the options `program`, those of `MachineOptions`, and `format`, in this order.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator
+from dataclasses import fields, is_dataclass
+from functools import wraps
+from typing import Any, get_type_hints
+
+
+def with_groups(command: Callable[..., None]) -> Callable[..., None]:
+    """The command with the fields of each group in place of the parameter of its type."""
+    parameters = inspect.signature(command, eval_str=True).parameters.values()
+    groups: dict[str, Any] = {
+        p.name: p.annotation for p in parameters if is_dataclass(p.annotation)
+    }
+
+    @wraps(command)
+    def ungrouped(**values: Any) -> None:
+        for name, group in groups.items():
+            values[name] = group(**{field.name: values.pop(field.name) for field in fields(group)})
+        command(**values)
+
+    options = [option for parameter in parameters for option in _options_of(parameter)]
+    ungrouped.__signature__ = inspect.Signature(options)  # type: ignore[attr-defined]
+    return ungrouped
+
+
+def _options_of(parameter: inspect.Parameter) -> Iterator[inspect.Parameter]:
+    """The parameter itself, or one for each field where its type is a group."""
+    if not is_dataclass(group := parameter.annotation):
+        yield parameter.replace(kind=parameter.KEYWORD_ONLY)
+        return
+    types = get_type_hints(group, include_extras=True)
+    for field in fields(group):
+        yield inspect.Parameter(
+            field.name, parameter.KEYWORD_ONLY, default=field.default, annotation=types[field.name]
+        )
