@@ -23,7 +23,7 @@ class Size:
 
 
 def toy() -> typer.Typer:
-    made = typer.Typer()
+    made = typer.Typer(add_completion=False)
 
     @made.command()
     @with_groups
