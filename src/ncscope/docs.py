@@ -42,6 +42,18 @@ OWN_RANGES = {
 }
 
 
+PROGRAM_VARIABLES = (
+    ("`P5`, `P[expr]`", "first write or `#VAR`", "parameter; numbers from 1"),
+    ("`V.P.NAME`", "first write or `#VAR`", "variable of the program"),
+    ("`V.S.NAME`", "first write or `#VAR`", "variable that outlives a program"),
+    ("`V.L.NAME`", "`#VAR` only", "variable of a program level and those below"),
+    ("`V.CYC.NAME`", "`#VAR` only", "as `V.L`, in cycles"),
+    ("`V.E.NAME`", "list of external variables, `--set`", "variable of the PLC"),
+    ("`@P1`", "call of a cycle", "parameter of a cycle"),
+)
+"""Name, what makes it, and what it is."""
+
+
 def pages() -> dict[str, str]:
     """Markdown by file name; every page comes from one table."""
     return {
@@ -74,20 +86,16 @@ def commands_page() -> str:
     ]
     for effect, title in G_EFFECTS.items():
         found = [(f"G{n:02d}", g) for n, g in sorted(GFUNCTIONS.items()) if g.effect == effect]
-        lines = (_cells(name, g.group or "", g.double_id or "", g.purpose) for name, g in found)
-        parts.append(f"### {title}")
-        parts.append(_table("G function|group|two in a block|purpose", lines))
+        lines = [_cells(name, g.group or "", g.double_id or "", g.purpose) for name, g in found]
+        parts += _section(title, "G function|group|two in a block|purpose", lines)
     parts.append("## # commands")
     for kind, title in COMMAND_KINDS.items():
-        rows = (_cells(f"`#{c.name}`", c.purpose) for c in COMMANDS if c.kind == kind)
-        parts.append(f"### {title}")
-        parts.append(_table("command|purpose", rows))
+        lines = [_cells(f"`#{c.name}`", c.purpose) for c in COMMANDS if c.kind == kind]
+        parts += _section(title, "command|purpose", lines)
     parts.append("## Other words")
     for kind, title in COMMAND_KINDS.items():
-        words = [_cells(f"`{w.name}`", w.purpose) for w in WORDS if w.kind == kind]
-        if words:
-            parts.append(f"### {title}")
-            parts.append(_table("word|purpose", words))
+        lines = [_cells(f"`{w.name}`", w.purpose) for w in WORDS if w.kind == kind]
+        parts += _section(title, "word|purpose", lines)
     return _page(parts)
 
 
@@ -154,18 +162,7 @@ def variables_page() -> str:
         "## Variables of the control",
         _table("variable|access|meaning", _variables()),
         "## Variables of the program",
-        _table(
-            "variable|created by|meaning",
-            (
-                _cells("`P5`, `P[expr]`", "first write or `#VAR`", "parameter; numbers from 1"),
-                _cells("`V.P.NAME`", "first write or `#VAR`", "variable of the program"),
-                _cells("`V.S.NAME`", "first write or `#VAR`", "variable that outlives a program"),
-                _cells("`V.L.NAME`", "`#VAR` only", "variable of a program level and those below"),
-                _cells("`V.CYC.NAME`", "`#VAR` only", "as `V.L`, in cycles"),
-                _cells("`V.E.NAME`", "list of external variables, `--set`", "variable of the PLC"),
-                _cells("`@P1`", "call of a cycle", "parameter of a cycle"),
-            ),
-        ),
+        _table("variable|created by|meaning", (_cells(*row) for row in PROGRAM_VARIABLES)),
         "Arrays need `#VAR`; their indices count from 0.\n"
         "A run starts without variables: nothing is carried from one run to the next, `V.S` "
         "included.\n"
@@ -199,6 +196,11 @@ def _diagnostics(ids: Iterable[str]) -> str:
         "id|severity|meaning",
         (_cells(id, CATALOGUE[id].severity, CATALOGUE[id].title) for id in ordered),
     )
+
+
+def _section(title: str, head: str, lines: list[str]) -> list[str]:
+    """A table under its title; nothing without lines."""
+    return [f"### {title}", _table(head, lines)] if lines else []
 
 
 def _table(head: str, lines: Iterable[str]) -> str:

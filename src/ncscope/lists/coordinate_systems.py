@@ -71,14 +71,9 @@ def _add_system(result: Configured, parts: list[Reading]) -> None:
         result.diagnostics.append(diagnostic("N3003", parts[0].entry.key_span, what, hint))
         return
     id = id_of(str(name.value))
-    if isinstance(id, str) and len(id) > LONGEST_ID:
-        what = f"the id {id} is too long; the coordinate system is not taken over"
-        hint = f"an id has at most {LONGEST_ID} characters"
-        result.diagnostics.append(diagnostic("110552", name.entry.value_span, what, hint))
-        return
-    if id in result.systems:
-        what = f"a coordinate system {id} is configured already; this one is not taken over"
-        result.diagnostics.append(diagnostic("22163", name.entry.value_span, what))
+    fault = _bad_id(id, name, result)
+    if fault is not None:
+        result.diagnostics.append(fault)
         return
     values = [0.0] * 6
     for reading in parts:
@@ -90,6 +85,18 @@ def _add_system(result: Configured, parts: list[Reading]) -> None:
             what = "the second path of a coordinate system has no effect here"
             result.diagnostics.append(diagnostic("N3003", reading.entry.key_span, what))
     result.systems[id] = ConfiguredSystem(tuple(values), name.entry.place)
+
+
+def _bad_id(id: Id, name: Reading, result: Configured) -> Diagnostic | None:
+    """What is wrong with the id of a coordinate system."""
+    if isinstance(id, str) and len(id) > LONGEST_ID:
+        what = f"the id {id} is too long; the coordinate system is not taken over"
+        hint = f"an id has at most {LONGEST_ID} characters"
+        return diagnostic("110552", name.entry.value_span, what, hint)
+    if id in result.systems:
+        what = f"a coordinate system {id} is configured already; this one is not taken over"
+        return diagnostic("22163", name.entry.value_span, what)
+    return None
 
 
 def id_of(text: str) -> Id:

@@ -93,14 +93,8 @@ def read_sets(
         # `kin_step[0].trafo[j]` and `trafo[j]` are one place (TF5200 multi-step transformations).
         slot = replace(slot, spelling=slot.spelling.removeprefix("kin_step[0]."))
         current = sets.get(slot) or _empty(slot, reading)
-        index, correction = field_index(field), _CORRECTION.fullmatch(field)
-        if correction is not None:
-            sets[slot] = _with_correction(current, int(correction[1]), reading)
-        elif index is None:
-            sets[slot] = _with_property(current, field, reading)
-        else:
-            overwritten.extend((place, *item) for item in _overwritten(current, index, reading))
-            sets[slot] = _with_number(current, index, reading)
+        overwritten.extend((place, *item) for item in _overwritten(current, field, reading))
+        sets[slot] = _with_reading(current, field, reading)
     return tuple(sets.values()), (*found, *_with_meant_index(overwritten, readings))
 
 
@@ -125,6 +119,15 @@ def by_id(
 
 def _empty(slot: Slot, first: Reading) -> KinematicSet:
     return KinematicSet(slot, KinematicParameters(id=slot.fixed_id or 0, type=0), first)
+
+
+def _with_reading(item: KinematicSet, field: str, reading: Reading) -> KinematicSet:
+    correction, index = _CORRECTION.fullmatch(field), field_index(field)
+    if correction is not None:
+        return _with_correction(item, int(correction[1]), reading)
+    if index is not None:
+        return _with_number(item, index, reading)
+    return _with_property(item, field, reading)
 
 
 def _with_property(item: KinematicSet, field: str, reading: Reading) -> KinematicSet:
@@ -153,9 +156,12 @@ def _with_correction(item: KinematicSet, index: int, reading: Reading) -> Kinema
 
 
 def _overwritten(
-    item: KinematicSet, index: int, reading: Reading
+    item: KinematicSet, field: str, reading: Reading
 ) -> Iterator[tuple[bool, Diagnostic]]:
-    """Whether the entry repeats the value of earlier lines of its list, and the warning."""
+    """For a number: whether it repeats that of earlier lines of its list, and the warning."""
+    index = field_index(field)
+    if index is None:
+        return
     span = reading.entry.key_span
     writers = [w for w in item.parameters.origins.get(index, ()) if w.source is span.source]
     old, new = item.parameters.values[index], float(reading.value or 0)

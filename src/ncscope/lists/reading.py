@@ -6,11 +6,12 @@ key counts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from ncscope.diagnostics import Diagnostic, Span
+from ncscope.kinematics import KinematicParameters
 from ncscope.lists import axes, coordinate_systems, files, kinematic_sets, records
 from ncscope.lists.axes import AxisRecord, ChannelAxes
 from ncscope.lists.external import external_variables
@@ -59,65 +60,87 @@ def machine_from_documents(
     return loaded.machine, loaded.diagnostics
 
 
+@dataclass(frozen=True, slots=True)
+class _Lists:
+    """The readings of all lists by kind; found: what their entries have wrong."""
+
+    by_kind: dict[str, list[Reading]]
+    of_axes: list[tuple[ListFile, Readings]]
+    external: dict[str, ExternalVariable]
+    found: list[Diagnostic]
+
+    def readings(self) -> Readings:
+        of_kinds = (reading for part in self.by_kind.values() for reading in part)
+        of_axes = (reading for _, part in self.of_axes for reading in part)
+        return (*of_kinds, *of_axes)
+
+
 def assemble(
     lists: tuple[ListFile, ...], name: str, complaints: tuple[Diagnostic, ...] = ()
 ) -> Loaded:
     """Every list read and the machine filled."""
-    found = list(complaints)
-    by_kind: dict[str, list[Reading]] = {kind: [] for kind in ("channel", "zero", "tool", "clamp")}
-    axis_lists: list[tuple[ListFile, Readings]] = []
-    declared: dict[str, ExternalVariable] = {}
-    for item in lists:
-        if item.list_kind == "external":
-            variables, problems = external_variables(item.document)
-            declared.update(variables)
-            found.extend(problems)
-            continue
-        readings, problems = read_values(item.document, item.list_kind)
-        found.extend(problems)
-        found.extend(_overwritten(readings))
-        if item.list_kind == "axis":
-            axis_lists.append((item, readings))
-        else:
-            by_kind.setdefault(item.list_kind, []).extend(readings)
-    axis_records, complaints_of_axes = _axis_records(axis_lists)
-    found.extend(complaints_of_axes)
-    channel = axes.channel_axes(by_kind["channel"], axis_records)
-    found.extend(channel.diagnostics)
-    settings, problems = records.channel_settings(by_kind["channel"])
-    found.extend(problems)
-    sets, problems = kinematic_sets.read_sets(by_kind["channel"])
-    found.extend(problems)
-    parameters, problems = kinematic_sets.by_id(sets)
-    found.extend(problems)
-    second, problems = kinematic_sets.by_id(sets, 1)
-    found.extend(problems)
-    of_program, problems = kinematic_sets.by_id(sets, kinematic_sets.PROGRAM_STEP)
-    found.extend(problems)
-    systems = coordinate_systems.configured(by_kind["channel"])
-    found.extend(systems.diagnostics)
+    read = _read(lists)
+    of_channel = read.by_kind["channel"]
+    # 1. the axes of the channel, and all other axes of the machine
+    axis_records, axis_faults = _axis_records(read.of_axes)
+    channel = axes.channel_axes(of_channel, axis_records)
     own = _axes(channel, axis_records)
+    rotary = frozenset(i for i, axis in enumerate(own) if axis.rotary)
+    # 2. what else the channel list says
+    settings, setting_faults = records.channel_settings(of_channel)
+    sets, set_faults = kinematic_sets.read_sets(of_channel)
+    steps, step_faults = _by_step(sets)
+    systems = coordinate_systems.configured(of_channel)
+    # 3. the machine, with the records of the other lists
     machine = Machine(
         name,
         own,
         _known_axes(own, axis_records),
-        records.zero_offsets(by_kind["zero"]),
-        records.clamp_positions(by_kind["clamp"]),
-        records.tools(by_kind["tool"], frozenset(i for i, axis in enumerate(own) if axis.rotary)),
-        parameters,
-        settings,
-        second,
-        of_program,
-        external=declared,
+        records.zero_offsets(read.by_kind["zero"]),
+        records.clamp_positions(read.by_kind["clamp"]),
+        records.tools(read.by_kind["tool"], rotary),
+        kinematic_parameters=steps[0],
+        settings=settings,
+        second_step_parameters=steps[1],
+        program_step_parameters=steps[2],
+        external=read.external,
         systems=systems.systems,
         stacks=systems.stacks,
         stack_at_start=systems.start,
     )
-    every = [
-        *(r for part in by_kind.values() for r in part),
-        *(r for _, p in axis_lists for r in p),
-    ]
-    return Loaded(machine, in_file_order(found, lists), tuple(every), sets, channel.name_spans)
+    found = [*complaints, *read.found, *axis_faults, *channel.diagnostics, *setting_faults]
+    found += [*set_faults, *step_faults, *systems.diagnostics]
+    return Loaded(machine, in_file_order(found, lists), read.readings(), sets, channel.name_spans)
+
+
+def _read(lists: tuple[ListFile, ...]) -> _Lists:
+    read = _Lists({kind: [] for kind in ("channel", "zero", "tool", "clamp")}, [], {}, [])
+    for item in lists:
+        if item.list_kind == "external":
+            variables, faults = external_variables(item.document)
+            read.external.update(variables)
+            read.found.extend(faults)
+            continue
+        readings, faults = read_values(item.document, item.list_kind)
+        read.found.extend([*faults, *_overwritten(readings)])
+        if item.list_kind == "axis":
+            read.of_axes.append((item, readings))
+        else:
+            read.by_kind.setdefault(item.list_kind, []).extend(readings)
+    return read
+
+
+def _by_step(
+    sets: tuple[KinematicSet, ...],
+) -> tuple[list[Mapping[int, KinematicParameters]], list[Diagnostic]]:
+    """Parameters by kinematic id of the first step, the second one, PCS transformations."""
+    steps: list[Mapping[int, KinematicParameters]] = []
+    found: list[Diagnostic] = []
+    for step in (0, 1, kinematic_sets.PROGRAM_STEP):
+        parameters, faults = kinematic_sets.by_id(sets, step)
+        steps.append(parameters)
+        found.extend(faults)
+    return steps, found
 
 
 def in_file_order(

@@ -9,12 +9,11 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from typing import Any
 
 from ncscope.diagnostics import Diagnostic, diagnostic
 from ncscope.lists.axes import UNITS
-from ncscope.lists.values import MACRO_TEXT, Reading
+from ncscope.lists.values import MACRO_TEXT, Reading, Value
 from ncscope.machine import ChannelSettings, OffsetRecord, Tool, ZeroOffsets
 
 MM_PER_INCH = 25.4
@@ -137,22 +136,32 @@ def channel_settings(
         name = SETTINGS_OF_KEYS.get(reading.entry.key.lower())
         if name is None or reading.value is None:
             continue
-        if name == "rotation_sequence" and reading.value not in ROTATION_SEQUENCES:
-            found.append(_bad_sequence(reading))
-            continue
-        if name in ECS_WORDS:
-            reading = replace(reading, value=str(reading.value).upper())
-            if reading.value not in ECS_WORDS[name]:
-                found.append(_bad_ecs_word(reading, ECS_WORDS[name]))
-                continue
-        default = getattr(ChannelSettings(), name)
-        values[name] = type(default)(reading.value)
-        if name in SETTING_UNITS:
-            values[name] /= SETTING_UNITS[name]
+        fault = _bad_word(name, reading)
+        if fault is None:
+            values[name] = _setting(name, reading.value)
+        else:
+            found.append(fault)
     values["called_files"] = _called_files(readings)
     values["macros"] = _macros(readings)
     values["search_paths"] = _search_paths(readings)
     return ChannelSettings(**values), tuple(found)
+
+
+def _bad_word(name: str, reading: Reading) -> Diagnostic | None:
+    """The fault of a setting whose value is a word that it does not know."""
+    if name == "rotation_sequence" and reading.value not in ROTATION_SEQUENCES:
+        return _bad_sequence(reading)
+    if name in ECS_WORDS and str(reading.value).upper() not in ECS_WORDS[name]:
+        return _bad_ecs_word(reading, ECS_WORDS[name])
+    return None
+
+
+def _setting(name: str, value: Value) -> Any:
+    """The value with the type and the unit of its field in `ChannelSettings`."""
+    if name in ECS_WORDS:
+        value = str(value).upper()
+    typed = type(getattr(ChannelSettings(), name))(value)
+    return typed / SETTING_UNITS[name] if name in SETTING_UNITS else typed
 
 
 def _called_files(readings: Iterable[Reading]) -> dict[str, str]:
@@ -260,6 +269,6 @@ def _bad_sequence(reading: Reading) -> Diagnostic:
 
 
 def _bad_ecs_word(reading: Reading, words: tuple[str, ...]) -> Diagnostic:
-    message = f"{reading.entry.key} ({reading.row.id}): {reading.value} is not allowed"
+    message = f"{reading.entry.key} ({reading.row.id}): {str(reading.value).upper()} is not allowed"
     hint = "write one of " + " ".join(words)
     return diagnostic("110552", reading.entry.value_span, message, hint)

@@ -21,23 +21,22 @@ def write_messages(
     for message in messages:
         if message.file is not None:
             texts.setdefault(safe_name(message.file), []).append(message.text + message.end)
-    found: list[Diagnostic] = []
     guarded = [p for p in protected if p.exists()]
-    for name, parts in texts.items():
-        target = folder / name
-        if target.is_symlink() or target.is_dir() or _is_one_of(target, guarded):
-            found.append(
-                diagnostic("N4003", None, f"{name} is not written: it is a link, a folder or a "
-                           "file of this run")
-            )  # fmt: skip
-            continue
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with target.open("a", encoding="latin-1", errors="replace", newline="") as out:
-                out.write("".join(parts))
-        except OSError as error:
-            found.append(diagnostic("N4003", None, f"{name} cannot be written: {error.strerror}"))
-    return tuple(found)
+    faults = (_append(folder / name, "".join(parts), guarded) for name, parts in texts.items())
+    return tuple(diagnostic("N4003", None, fault) for fault in faults if fault)
+
+
+def _append(target: Path, text: str, guarded: list[Path]) -> str:
+    """Writes behind what the file holds; why that cannot be, else an empty text."""
+    if target.is_symlink() or target.is_dir() or _is_one_of(target, guarded):
+        return f"{target.name} is not written: it is a link, a folder or a file of this run"
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with target.open("a", encoding="latin-1", errors="replace", newline="") as out:
+            out.write(text)
+    except OSError as error:
+        return f"{target.name} cannot be written: {error.strerror}"
+    return ""
 
 
 def _is_one_of(target: Path, files: list[Path]) -> bool:

@@ -5,6 +5,8 @@ Enters: a `ChainScene`. Leaves: the bytes of a file.
 
 from __future__ import annotations
 
+from typing import Any
+
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
@@ -75,32 +77,34 @@ def _dot(point: Array | None) -> Array | None:
 
 
 def _draw_part(axes: Axes, view: View, part: Part, size: float) -> list[Label]:
+    """Point, line and turn of a part; its label stands at the end of the line, or at the point."""
     colour, name = COLOURS[part.kind], f"{view.name}-{part.id}"
     spot: Array | None = None
     if part.point is not None:
         spot = view.flat(part.point)
-        (mark,) = axes.plot(
-            *spot, "o" if part.kind == "rotary" else "D", color=colour, markersize=5, zorder=6
-        )
+        shape = "o" if part.kind == "rotary" else "D"
+        (mark,) = axes.plot(*spot, shape, color=colour, markersize=5, zorder=6)
         mark.set_gid(f"{name}-point")
     if len(part.line):
-        start, spot = view.flat(part.line[0]), view.flat(part.line[-1])
-        length = float(np.linalg.norm(spot - start))
-        if length < FLAT * size:
-            _end_on(axes, spot, float((part.line[-1] - part.line[0]) @ view.toward), colour, name)
-        elif part.arrow and part.kind != "base":
-            arrow(axes, start, spot, colour, WIDTHS[part.kind], name)
-        else:
-            (line,) = axes.plot(
-                *np.array([start, spot]).T,
-                color=colour,
-                linewidth=WIDTHS[part.kind],
-                solid_capstyle="butt",
-            )
-            line.set_gid(name)
+        spot = view.flat(part.line[-1])
+        _draw_line(axes, view, part, size, name)
     if part.turn is not None:
         _draw_turn(axes, view.flat(part.turn), colour, f"{name}-turn")
     return [] if spot is None or not part.label else [Label(spot, part.label, colour)]
+
+
+def _draw_line(axes: Axes, view: View, part: Part, size: float, name: str) -> None:
+    """The line of a part: seen from its end, with an arrow, or plain."""
+    colour, width = COLOURS[part.kind], WIDTHS[part.kind]
+    start, end = view.flat(part.line[0]), view.flat(part.line[-1])
+    if float(np.linalg.norm(end - start)) < FLAT * size:
+        _end_on(axes, end, float((part.line[-1] - part.line[0]) @ view.toward), colour, name)
+    elif part.arrow and part.kind != "base":
+        arrow(axes, start, end, colour, width, name)
+    else:
+        both = np.array([start, end]).T
+        (line,) = axes.plot(*both, color=colour, linewidth=width, solid_capstyle="butt")
+        line.set_gid(name)
 
 
 def _end_on(axes: Axes, at: Array, toward: float, colour: str, name: str) -> None:
@@ -139,6 +143,7 @@ def _draw_boxes(axes: Axes, boxes: tuple[Box, ...]) -> None:
 
 
 def _box(axes: Axes, place: int, name: str, lines: list[str], colour: str) -> None:
+    """A box of the chain with its name and lines, linked to the one before it."""
     patch = FancyBboxPatch(
         (place + 0.05, 0.04),
         0.84,
@@ -150,35 +155,18 @@ def _box(axes: Axes, place: int, name: str, lines: list[str], colour: str) -> No
     )
     patch.set_gid(f"box-{place}")
     axes.add_patch(patch)
-    middle = place + 0.47
-    axes.text(
-        middle,
-        0.83,
-        plain(name),
-        ha="center",
-        va="center",
-        fontsize=10,
-        color=colour,
-        weight="bold",
-        parse_math=False,
-    )
+    _write(axes, place, 0.83, name, colour, fontsize=10, weight="bold")
     for row, line in enumerate(lines):
-        axes.text(
-            middle,
-            0.66 - 0.135 * row,
-            plain(line),
-            ha="center",
-            va="center",
-            fontsize=6.8,
-            color=colour if row >= 3 else "#333333",
-            parse_math=False,
-        )
+        shade = colour if row >= 3 else "#333333"
+        _write(axes, place, 0.66 - 0.135 * row, line, shade, fontsize=6.8)
     if place:
-        arrow(
-            axes,
-            np.array([place - 0.1, 0.5]),
-            np.array([place + 0.05, 0.5]),
-            "#888888",
-            1.0,
-            f"link-{place}",
-        )
+        start, end = np.array([place - 0.1, 0.5]), np.array([place + 0.05, 0.5])
+        arrow(axes, start, end, "#888888", 1.0, f"link-{place}")
+
+
+def _write(axes: Axes, place: int, height: float, text: str, colour: str, **font: Any) -> None:
+    """A text in the middle of a box."""
+    axes.text(
+        place + 0.47, height, plain(text), ha="center", va="center", color=colour,
+        parse_math=False, **font,
+    )  # fmt: skip

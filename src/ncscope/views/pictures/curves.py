@@ -5,6 +5,7 @@ Enters: a run and its inspection. Leaves: curves of at most a few thousand point
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,8 @@ from ncscope.views.pictures.reduce import Rows, envelope
 WIDTH = 1100
 FEW = 60
 """Blocks up to which each one gets a mark."""
+FEW_BLOCKS = 24
+"""Blocks up to which each one is named on the scale."""
 NEAR = 0.6
 """A limit is drawn when it is no farther from the curve than this part of the height."""
 
@@ -80,32 +83,46 @@ def _curve(
     width: int,
 ) -> Curve:
     rows = envelope(values, width) if len(values) else np.empty(0, dtype=np.int64)
-    limits, note, beyond = [], "", [np.empty(0, dtype=np.int64)]
-    for t in travel:
-        unit = "°" if t.axis.rotary else "mm"
-        note = f"{t.low:.4f} to {t.high:.4f} {unit}"
-        if t.axis.limits is not None:
-            height = max(t.high - t.low, 1e-9)
-            low, high = t.axis.limits
-            if t.low - low < NEAR * height:
-                limits.append(low)
-            if high - t.high < NEAR * height:
-                limits.append(high)
-            note += f"; travel {low:g} to {high:g} {unit}"
-            beyond += [np.unique(t.below), np.unique(t.above)]
-    outside = np.concatenate(beyond)
+    outside = _beyond(travel)
     outside = outside[envelope(values[outside], width // 4)] if len(outside) else outside
-    marker = "o" if len(values) <= FEW and len(values) == len(names) else ""
     return Curve(
         name,
         blocks[rows],
         values[rows],
-        tuple(limits),
-        note,
-        (blocks[outside], values[outside]),
-        marker,
-        names,
+        limits=tuple(limit for t in travel for limit in _limits(t)),
+        note=_note(travel[-1]) if travel else "",
+        beyond=(blocks[outside], values[outside]),
+        marker="o" if len(values) <= FEW and len(values) == len(names) else "",
+        block_names=names,
     )
+
+
+def _limits(travel: Travel) -> Iterator[float]:
+    """The software limits that are near enough to be drawn."""
+    if travel.axis.limits is None:
+        return
+    low, high = travel.axis.limits
+    reach = NEAR * max(travel.high - travel.low, 1e-9)
+    if travel.low - low < reach:
+        yield low
+    if high - travel.high < reach:
+        yield high
+
+
+def _note(travel: Travel) -> str:
+    unit = "°" if travel.axis.rotary else "mm"
+    note = f"{travel.low:.4f} to {travel.high:.4f} {unit}"
+    if travel.axis.limits is not None:
+        low, high = travel.axis.limits
+        note += f"; travel {low:g} to {high:g} {unit}"
+    return note
+
+
+def _beyond(travel: list[Travel]) -> Rows:
+    """The rows of the run that lie beyond a limit."""
+    limited = [t for t in travel if t.axis.limits is not None]
+    found = [np.unique(rows) for t in limited for rows in (t.below, t.above)]
+    return np.concatenate([np.empty(0, dtype=np.int64), *found])
 
 
 def _block_names(result: Trajectory) -> tuple[str, ...]:

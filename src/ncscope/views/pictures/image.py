@@ -18,7 +18,7 @@ from matplotlib.patches import FancyArrowPatch
 from ncscope.frames import Array
 from ncscope.inspection import Inspection
 from ncscope.trajectory import Trajectory
-from ncscope.views.pictures.curves import Curve, curves
+from ncscope.views.pictures.curves import FEW_BLOCKS, Curve, curves
 from ncscope.views.pictures.labels import Label, draw_labels, plain
 from ncscope.views.pictures.path import ToolPath, Triad
 from ncscope.views.pictures.projection import VIEWS, View
@@ -51,27 +51,33 @@ def path_image(
     """The path in four views, and each axis over the blocks. form: png or svg."""
     with matplotlib.rc_context(STYLE):
         rows = curves(result, inspection)
-        top = 8.2
-        figure = Figure(figsize=(11.0, top + 0.95 * len(rows) + 0.6))
-        grid = figure.add_gridspec(
-            2,
-            1,
-            height_ratios=[top, 0.95 * len(rows) + 0.3],
-            hspace=0.9 / top,
-            left=0.075,
-            right=0.975,
-            top=1 - 0.75 / figure.get_figheight(),
-            bottom=0.5 / figure.get_figheight(),
-        )
-        figure.suptitle(plain(title), y=1 - 0.2 / figure.get_figheight(), parse_math=False)
-        views = grid[0].subgridspec(2, 2, wspace=0.14, hspace=0.2)
+        figure, upper, lower = _sheet(title, 0.95 * len(rows))
         hidden = 1
         for place, view in enumerate(VIEWS):
-            axes = figure.add_subplot(views[place // 2, place % 2])
+            axes = figure.add_subplot(upper[place // 2, place % 2])
             hidden = max(hidden, _draw_path(axes, view, path, SEGMENTS))
         _legend(figure, path, hidden)
-        _draw_curves(figure, grid[1], rows, int(result.end.sum()))
+        _draw_curves(figure, lower, rows, int(result.end.sum()))
         return picture_bytes(figure, form)
+
+
+def _sheet(title: str, curves_height: float) -> tuple[Figure, Any, Any]:
+    """A figure with its title, the grid of the four views, and the cell of the curves; inches."""
+    top = 8.2
+    height = top + curves_height + 0.6
+    figure = Figure(figsize=(11.0, height))
+    grid = figure.add_gridspec(
+        2,
+        1,
+        height_ratios=[top, curves_height + 0.3],
+        hspace=0.9 / top,
+        left=0.075,
+        right=0.975,
+        top=1 - 0.75 / height,
+        bottom=0.5 / height,
+    )
+    figure.suptitle(plain(title), y=1 - 0.2 / height, parse_math=False)
+    return figure, grid[0].subgridspec(2, 2, wspace=0.14, hspace=0.2), grid[1]
 
 
 def _draw_path(axes: Axes, view: View, path: ToolPath, limit: int) -> int:
@@ -144,6 +150,7 @@ def _legend(figure: Figure, path: ToolPath, hidden: int) -> None:
 
 
 def _draw_curves(figure: Figure, cell: Any, rows: list[Curve], count: int) -> None:
+    """The axes below each other with one scale of blocks, which the last one carries."""
     if not rows:
         return
     grid = cell.subgridspec(len(rows), 1, hspace=0.28)
@@ -151,39 +158,38 @@ def _draw_curves(figure: Figure, cell: Any, rows: list[Curve], count: int) -> No
     for curve, place in zip(rows, grid, strict=True):
         axes = figure.add_subplot(place, sharex=first)
         first = first or axes
-        axes.set_gid(f"curve-{curve.name}")
-        axes.plot(
-            curve.blocks,
-            curve.values,
-            color=FEED,
-            linewidth=0.9,
-            marker=curve.marker,
-            markersize=2.5,
-        )
-        for value in curve.limits:
-            axes.axhline(value, color=LIMIT, linewidth=0.9, linestyle=(0, (5, 2)))
-        if len(curve.beyond[0]):
-            axes.plot(*curve.beyond, ".", color=LIMIT, markersize=5, zorder=5)
-        axes.set_ylabel(plain(curve.name), rotation=0, ha="right", va="center", parse_math=False)
-        axes.text(
-            1.0,
-            1.03,
-            curve.note,
-            transform=axes.transAxes,
-            ha="right",
-            fontsize=7,
-            color="#555555",
-            parse_math=False,
-        )
-        axes.grid(True)
+        _draw_curve(axes, curve)
         axes.tick_params(length=2, labelsize=7, labelbottom=curve is rows[-1], color="#888888")
         axes.margins(x=0.01, y=0.12)
     assert first is not None
     first.set_xlim(0.5, max(count, 1) + 0.5)
     first.ticklabel_format(axis="x", style="plain", useOffset=False)
     axes.set_xlabel("motion blocks in the order in which they run", fontsize=8, labelpad=1)
-    if count <= 24:
+    if count <= FEW_BLOCKS:
         axes.set_xticks(range(1, count + 1), rows[0].block_names, fontsize=7)
+
+
+def _draw_curve(axes: Axes, curve: Curve) -> None:
+    axes.set_gid(f"curve-{curve.name}")
+    axes.plot(
+        curve.blocks, curve.values, color=FEED, linewidth=0.9, marker=curve.marker, markersize=2.5
+    )
+    for value in curve.limits:
+        axes.axhline(value, color=LIMIT, linewidth=0.9, linestyle=(0, (5, 2)))
+    if len(curve.beyond[0]):
+        axes.plot(*curve.beyond, ".", color=LIMIT, markersize=5, zorder=5)
+    axes.set_ylabel(plain(curve.name), rotation=0, ha="right", va="center", parse_math=False)
+    axes.text(
+        1.0,
+        1.03,
+        curve.note,
+        transform=axes.transAxes,
+        ha="right",
+        fontsize=7,
+        color="#555555",
+        parse_math=False,
+    )
+    axes.grid(True)
 
 
 def arrow(axes: Axes, start: Array, end: Array, colour: str, width: float, name: str) -> None:

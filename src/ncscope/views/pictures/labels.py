@@ -52,28 +52,37 @@ def draw_labels(
     origin, scale = np.array([low[0], high[0]]), np.array([np.ptp(low), np.ptp(high)])
     placed: list[tuple[float, float, float]] = []
     drawn = _dense([(line - origin) / scale for line in lines])
-    for at, text, colour in labels:
-        width = WIDTH * len(text) * size / 8.0
-        shift = (-0.012 - width, -0.012 - 0.7 * HEIGHT) if left_below else (0.014, 0.014)
-        x, y = (float(v) for v in (at - origin) / scale + shift)
-        left = float(((at - origin) / scale)[0]) - 0.014 - width
-        x = min(max(x, 0.005), 1.0 - width)
-        step = -HEIGHT if left_below else HEIGHT
-        columns = (x,) if left_below or left < 0.005 else (x, left)
-        x, y = _free_place(placed, drawn, columns, min(max(y, 0.005), 1.0 - HEIGHT), width, step)
+    for label in labels:
+        width = WIDTH * len(label.text) * size / 8.0
+        columns, y = _beside((label.at - origin) / scale, width, left_below)
+        x, y = _free_place(placed, drawn, columns, y, width, -HEIGHT if left_below else HEIGHT)
         placed.append((x, y, width))
-        beside_left = x == left and not left_below
-        axes.annotate(
-            plain(text),
-            tuple(at),
-            xytext=tuple(origin + scale * (x + width * beside_left, y)),
-            ha="right" if beside_left else "left",
-            fontsize=size,
-            color=colour,
-            zorder=8,
-            parse_math=False,
-            bbox={"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.6},
-        )
+        ends = x in columns[1:]  # left of the point: the text ends there
+        corner = origin + scale * (x + width * ends, y)
+        _write(axes, label, corner, "right" if ends else "left", size)
+
+
+def _beside(at: Array, width: float, left_below: bool) -> tuple[tuple[float, ...], float]:
+    """Where a label of a point (2,) may begin, best first, and its height; parts of the view."""
+    shift = (-0.012 - width, -0.012 - 0.7 * HEIGHT) if left_below else (0.014, 0.014)
+    x, y = (float(value) for value in at + shift)
+    x, y = min(max(x, 0.005), 1.0 - width), min(max(y, 0.005), 1.0 - HEIGHT)
+    left = float(at[0]) - 0.014 - width
+    return ((x,) if left_below or left < 0.005 else (x, left)), y
+
+
+def _write(axes: Axes, label: Label, corner: Array, side: str, size: float) -> None:
+    axes.annotate(
+        plain(label.text),
+        tuple(label.at),
+        xytext=tuple(corner),
+        ha=side,
+        fontsize=size,
+        color=label.colour,
+        zorder=8,
+        parse_math=False,
+        bbox={"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.6},
+    )
 
 
 def _dense(lines: Sequence[Array]) -> Array:

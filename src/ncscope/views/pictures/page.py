@@ -17,7 +17,7 @@ from ncscope.frames import Array
 from ncscope.inspection import Inspection
 from ncscope.trajectory import Trajectory
 from ncscope.views.pictures.chain import ChainScene, Part
-from ncscope.views.pictures.curves import curves
+from ncscope.views.pictures.curves import FEW_BLOCKS, Curve, curves
 from ncscope.views.pictures.path import ToolPath
 from ncscope.views.pictures.reduce import polyline
 
@@ -33,6 +33,7 @@ COLOURS = {
     "tool": "#111111",
 }
 TRIAD = ("#c62828", "#2e7d32", "#1565c0")
+PART_WIDTHS = {"base": 1.5, "tool": 8, "linear": 7}
 SCENE_HEIGHT, CURVE_HEIGHT = 720, 110
 CAMERA = {"eye": {"x": 1.1, "y": -1.5, "z": 1.1}, "projection": {"type": "orthographic"}}
 
@@ -40,6 +41,7 @@ CAMERA = {"eye": {"x": 1.1, "y": -1.5, "z": 1.1}, "projection": {"type": "orthog
 def path_page(result: Trajectory, inspection: Inspection, path: ToolPath, title: str) -> bytes:
     """The path to turn and zoom, and each axis over the blocks with a common scale."""
     rows = curves(result, inspection)
+    count = int(result.end.sum())
     height = SCENE_HEIGHT + CURVE_HEIGHT * len(rows)
     figure = make_subplots(
         rows=1 + len(rows),
@@ -55,30 +57,13 @@ def path_page(result: Trajectory, inspection: Inspection, path: ToolPath, title:
         for trace in _triad(triad.name, triad.origin, triad.axes, 0.13 * path.size):
             figure.add_trace(trace, row=1, col=1)
     for place, curve in enumerate(rows, start=2):
-        line = go.Scatter(
-            x=curve.blocks,
-            y=curve.values,
-            name=text_of(curve.name),
-            showlegend=False,
-            line={"color": COLOURS["feed"], "width": 1.2},
-            hovertemplate=text_of(curve.name) + " %{y:.4f}<extra>block %{x}</extra>",
-        )
-        figure.add_trace(line, row=place, col=1)
-        for value in curve.limits:
-            limit = go.Scatter(
-                x=[1, max(int(result.end.sum()), 2)],
-                y=[value, value],
-                mode="lines",
-                showlegend=False,
-                line={"color": COLOURS["limit"], "width": 1.2, "dash": "dash"},
-                hoverinfo="y",
-            )
-            figure.add_trace(limit, row=place, col=1)
+        for trace in _curve(curve, count):
+            figure.add_trace(trace, row=place, col=1)
         figure.update_yaxes(title_text=text_of(curve.name), row=place, col=1)
     figure.update_xaxes(
         title_text="motion blocks in the order in which they run",
         tickformat=",d",
-        dtick=1 if result.end.sum() <= 24 else None,
+        dtick=1 if count <= FEW_BLOCKS else None,
         row=1 + len(rows),
     )
     return _page(figure, title, height + 120)
@@ -129,6 +114,30 @@ def _path_line(result: Trajectory, path: ToolPath, kind: str) -> Any:
     )
 
 
+def _curve(curve: Curve, count: int) -> list[Any]:
+    """One axis over the `count` blocks of the run, and its limits."""
+    line = go.Scatter(
+        x=curve.blocks,
+        y=curve.values,
+        name=text_of(curve.name),
+        showlegend=False,
+        line={"color": COLOURS["feed"], "width": 1.2},
+        hovertemplate=text_of(curve.name) + " %{y:.4f}<extra>block %{x}</extra>",
+    )
+    limits = [
+        go.Scatter(
+            x=[1, max(count, 2)],
+            y=[value, value],
+            mode="lines",
+            showlegend=False,
+            line={"color": COLOURS["limit"], "width": 1.2, "dash": "dash"},
+            hoverinfo="y",
+        )
+        for value in curve.limits
+    ]
+    return [line, *limits]
+
+
 def _triad(name: str, origin: Array, axes: Array, length: float) -> list[Any]:
     found = []
     for letter, row, colour in zip("XYZ", axes, TRIAD, strict=True):
@@ -152,45 +161,49 @@ def _triad(name: str, origin: Array, axes: Array, length: float) -> list[Any]:
 
 
 def _part(part: Part, size: float) -> list[Any]:
-    colour, found = COLOURS[part.kind], []
+    """A part of the chain: its point, its line with the label, and how it turns."""
     label = text_of(part.label)
+    found = []
     if part.point is not None:
-        x, y, z = part.point[:, None]
-        found.append(
-            go.Scatter3d(
-                x=x,
-                y=y,
-                z=z,
-                mode="markers+text",
-                marker={"size": 5, "color": colour},
-                text=["" if len(part.line) else label],
-                textposition="bottom center",
-                showlegend=False,
-                hoverinfo="x+y+z",
-            )
-        )
+        found.append(_point(part.point, COLOURS[part.kind], "" if len(part.line) else label))
     for line, text in ((part.line, label), (part.turn, "")):
         if line is None or len(line) == 0:
             continue
-        x, y, z = line.T
-        width = {"base": 1.5, "tool": 8, "linear": 7}.get(part.kind, 4)
-        texts = [*[""] * (len(line) - 1), text]
-        found.append(
-            go.Scatter3d(
-                x=x,
-                y=y,
-                z=z,
-                mode="lines+text",
-                text=texts,
-                hoverinfo="skip",
-                line={"color": colour, "width": width},
-                showlegend=False,
-                textfont={"size": 14, "color": colour},
-            )
-        )
+        found.append(_part_line(line, part.kind, text))
         if part.arrow and part.kind != "base":
-            found.append(_head(line, colour, 0.05 * size))
+            found.append(_head(line, COLOURS[part.kind], 0.05 * size))
     return found
+
+
+def _point(point: Array, colour: str, text: str) -> Any:
+    x, y, z = point[:, None]
+    return go.Scatter3d(
+        x=x,
+        y=y,
+        z=z,
+        mode="markers+text",
+        marker={"size": 5, "color": colour},
+        text=[text],
+        textposition="bottom center",
+        showlegend=False,
+        hoverinfo="x+y+z",
+    )
+
+
+def _part_line(line: Array, kind: str, text: str) -> Any:
+    """A line (k, 3) in the colour of its kind, with a text at its end."""
+    x, y, z = line.T
+    return go.Scatter3d(
+        x=x,
+        y=y,
+        z=z,
+        mode="lines+text",
+        text=[*[""] * (len(line) - 1), text],
+        hoverinfo="skip",
+        line={"color": COLOURS[kind], "width": PART_WIDTHS.get(kind, 4)},
+        showlegend=False,
+        textfont={"size": 14, "color": COLOURS[kind]},
+    )
 
 
 def _head(line: Array, colour: str, size: float) -> Any:

@@ -7,6 +7,7 @@ import socket
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from ncscope.views.workbench.files import Folder
 from ncscope.views.workbench.guard import LOOPBACK, Guard
@@ -33,15 +34,28 @@ def serve(
     Raises OSError when the address cannot be used, ImportError without the extra `workbench`.
     """
     import uvicorn
+
+    listener = _listen(host, port)
+    port = listener.getsockname()[1]
+    token = token or secrets.token_urlsafe(24)
+    shown = f"[{host}]" if ":" in host else host
+    names = LOOPBACK if host in ("127.0.0.1", "::1", "localhost") else (shown.lower(),)
+    guard = Guard(_app(Sessions(Folder.at(folder)), start), port, token, names)
+    config = uvicorn.Config(
+        guard, log_level="warning", timeout_graceful_shutdown=GRACE, server_header=False
+    )
+    threading.Thread(target=warm_up, daemon=True).start()
+    announce(f"http://{shown}:{port}/?token={token}")
+    uvicorn.Server(config).run(sockets=[listener])
+
+
+def _app(sessions: Sessions, start: tuple[str, str]) -> Any:
+    """The page and the answers to its questions, as an ASGI application."""
     from fastapi import FastAPI
     from nicegui import ui
 
     from ncscope.views.workbench.page import define_page
 
-    listener = _listen(host, port)
-    port = listener.getsockname()[1]
-    token = token or secrets.token_urlsafe(24)
-    sessions = Sessions(Folder.at(folder))
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     app.router.routes.extend(routes(sessions))
     define_page(sessions, start)
@@ -54,15 +68,7 @@ def serve(
         gzip_middleware_factory=None,
         show_welcome_message=False,
     )
-    shown = f"[{host}]" if ":" in host else host
-    names = LOOPBACK if host in ("127.0.0.1", "::1", "localhost") else (shown.lower(),)
-    config = uvicorn.Config(
-        Guard(app, port, token, names), log_level="warning", timeout_graceful_shutdown=GRACE,
-        server_header=False,
-    )  # fmt: skip
-    threading.Thread(target=warm_up, daemon=True).start()
-    announce(f"http://{shown}:{port}/?token={token}")
-    uvicorn.Server(config).run(sockets=[listener])
+    return app
 
 
 def _listen(host: str, port: int) -> socket.socket:
