@@ -21,13 +21,14 @@ from numpy.typing import ArrayLike
 
 from ncscope.contour import NO_CONTOUR, Contour
 from ncscope.frames import Array, Frame, transformed
-from ncscope.kinematics.alignment import LengthCorrection
-from ncscope.kinematics.step import KinematicsError, KinematicStep, Pose
+from ncscope.kinematics.step import KinematicsError
 from ncscope.levels import (
     BASE_LEVEL,
     NO_MODULO,
     NO_TOOL,
     OFFSET_KINDS,
+    ActiveKinematics,
+    ActiveLengthCorrection,
     ActiveTool,
     Level,
     ModuloAxes,
@@ -38,39 +39,13 @@ __all__ = [
     "BASE_LEVEL",
     "OFFSET_KINDS",
     "ActiveKinematics",
+    "ActiveLengthCorrection",
     "ActiveTool",
     "Coordinates",
     "Layer",
     "Level",
     "Offset",
 ]
-
-
-@dataclass(frozen=True)
-class ActiveKinematics:
-    """A selected kinematics with the pose that it keeps until it is deselected.
-
-    turns_direction: coordinate systems turn the programmed direction too (P-CHAN-00247).
-    point_to_point: between the ends of a move the axes run straight, not the tip (#PTP).
-    rapid_straight: with G00 they always do (P-CHAN-00423).
-    turns_in_plane: a programmed direction turns in the plane of its ends (P-CHAN-00417).
-    """
-
-    model: KinematicStep
-    pose: Pose | None = None
-    origin: str | None = None
-    turns_direction: bool = False
-    point_to_point: bool = False
-    rapid_straight: bool = False
-    turns_in_plane: bool = True
-
-
-@dataclass(frozen=True)
-class ActiveLengthCorrection:
-    """#TLC with a kinematics: it acts along the tool, while no transformation is on."""
-
-    model: LengthCorrection
-    origin: str | None = None
 
 
 class Layer(NamedTuple):

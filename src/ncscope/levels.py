@@ -1,4 +1,4 @@
-"""What a chain is made of besides its kinematics: offsets, levels and the tool.
+"""What a chain is made of: offsets, levels, the tool and the selected kinematics.
 
 Values are by channel axis, mm and degrees. Only `coordinates` adds them up.
 """
@@ -12,6 +12,8 @@ import numpy as np
 from ncscope.compilation import compiled
 from ncscope.contour import NO_CONTOUR, Contour
 from ncscope.frames import Array, Frame
+from ncscope.kinematics.alignment import LengthCorrection
+from ncscope.kinematics.step import KinematicStep, Pose
 
 OFFSET_KINDS = ("zero", "g92", "pset", "clamp", "measure")
 """Kinds of offset a level can hold, in the order in which they are reported."""
@@ -92,6 +94,33 @@ class ActiveTool:
 
 
 NO_TOOL = ActiveTool()
+
+
+@dataclass(frozen=True)
+class ActiveKinematics:
+    """A selected kinematics with the pose that it keeps until it is deselected.
+
+    turns_direction: coordinate systems turn the programmed direction too (P-CHAN-00247).
+    point_to_point: between the ends of a move the axes run straight, not the tip (#PTP).
+    rapid_straight: with G00 they always do (P-CHAN-00423).
+    turns_in_plane: a programmed direction turns in the plane of its ends (P-CHAN-00417).
+    """
+
+    model: KinematicStep
+    pose: Pose | None = None
+    origin: str | None = None
+    turns_direction: bool = False
+    point_to_point: bool = False
+    rapid_straight: bool = False
+    turns_in_plane: bool = True
+
+
+@dataclass(frozen=True)
+class ActiveLengthCorrection:
+    """#TLC with a kinematics: it acts along the tool, while no transformation is on."""
+
+    model: LengthCorrection
+    origin: str | None = None
 
 
 @dataclass(frozen=True)

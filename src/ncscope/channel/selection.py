@@ -15,7 +15,7 @@ from ncscope.channel.state import PROGRAM_STEP
 from ncscope.coordinates import ActiveKinematics
 from ncscope.diagnostics import Span
 from ncscope.kinematics.building import UNIVERSAL, build, type_of
-from ncscope.kinematics.chain import Fault, validate
+from ncscope.kinematics.faults import Fault, validate
 from ncscope.kinematics.parameters import FIELD_OF_INDEX, INDEX_OF_FIELD, KinematicParameters
 from ncscope.kinematics.step import KinematicsError, KinematicStep, TwoSteps
 from ncscope.language import tree

@@ -1,16 +1,17 @@
 """Axes <-> tool pose for KIN-ID 91, the universal kinematics. Knows nothing of NC programs.
 
 Reading order: `parameters` (the 70 numbers of a data set), `chain` (the same in mm and unit
-vectors, and its faults), `kernels` (compiled loops: tool from axes, linear axes from tool),
-`turning` and `orientation` (tool direction <-> rotary axes), `directions` (how a program writes a
-direction), `step` (what any kinematics has to offer),
-`universal` (programming modes, the public class).
+vectors), `faults` (what can be wrong with it), `kernels` (compiled loops: tool from axes, linear
+axes from tool), `turning` and `orientation` (tool direction <-> rotary axes), `directions` (how a
+program writes a direction), `step` (what any kinematics has to offer), `universal` (programming
+modes, the public class).
 
 Frames: the workpiece system with all axes at 0. Units: mm and degrees. Rotations follow the
 right-hand rule about the entered direction. The tool direction points from the tip to the flange.
 """
 
-from ncscope.kinematics.chain import CLASSIC, Chain, Fault, validate
+from ncscope.kinematics.chain import CLASSIC, Chain
+from ncscope.kinematics.faults import Fault, validate
 from ncscope.kinematics.orientation import OrientationSolver
 from ncscope.kinematics.parameters import (
     FIELD_OF_INDEX,

@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ncscope.kinematics import kernels
-from ncscope.kinematics.chain import CONFORMAL, DIRECT, POINT_VECTOR, Chain, validate
+from ncscope.kinematics.chain import CONFORMAL, DIRECT, POINT_VECTOR, Chain
 from ncscope.kinematics.directions import ProgrammedDirection
+from ncscope.kinematics.faults import validate
 from ncscope.kinematics.orientation import OrientationSolver
 from ncscope.kinematics.parameters import KinematicParameters
 from ncscope.kinematics.readings import STANDARD, Reading

@@ -12,7 +12,7 @@ from itertools import takewhile
 
 from ncscope.diagnostics import Diagnostic, diagnostic
 from ncscope.kinematics.building import can_be_pcs
-from ncscope.kinematics.chain import Fault, validate
+from ncscope.kinematics.faults import Fault, validate
 from ncscope.kinematics.parameters import (
     FIELD_OF_INDEX,
     INDEX_OF_FIELD,
