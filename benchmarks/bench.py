@@ -64,7 +64,7 @@ def _options() -> argparse.Namespace:
 
 def _files(blocks: int) -> dict[str, Path]:
     files = {}
-    for kind in ("five_axis", "complete", "three_axis", "peers"):
+    for kind in ("five_axis", "complete", "three_axis", "contour", "peers"):
         files[kind] = WORK / f"{kind}_{blocks}.nc"
         if not files[kind].exists():
             write(kind, blocks, files[kind])
@@ -77,7 +77,12 @@ def _files(blocks: int) -> dict[str, Path]:
 def _lanes(files: dict[str, Path], options: argparse.Namespace) -> list[Row]:
     """Text to PCS and ACS inside a process: the first run of it, and later ones."""
     rows = []
-    kinds = (("five_axis", "ca_head"), ("complete", "complete"), ("three_axis", "xyz"))
+    kinds = (
+        ("five_axis", "ca_head"),
+        ("complete", "complete"),
+        ("three_axis", "xyz"),
+        ("contour", "xyz"),
+    )
     for kind, machine in kinds:
         found = [_measure("run", machine, str(files[kind])) for _ in range(options.runs)]
         million = found[0]["moves"] / 1e6
@@ -192,23 +197,26 @@ def _long_run(path: str) -> dict[str, float]:
 
 
 def _peers(files: dict[str, Path], options: argparse.Namespace) -> list[Row]:
-    program, million = str(files["peers"]), options.blocks / 1e6
+    """Other tools over the five-axis blocks and over the contours."""
     rows: list[Row] = []
-    python = _peer_environment()
-    if isinstance(python, str):
-        rows.append((f"{PEER} nc_to_dataframe", "-", python))
-    else:
-        script = str(HERE / "measure.py")
-        found = [_json([str(python), script, "nc_to_dataframe", program]) for _ in range(3)]
-        name = f"{PEER} {_version(python)} nc_to_dataframe, no kinematics"
-        rows.append((name, _range([million / f["wall"] for f in found]), "M blocks/s"))
-    rs274 = shutil.which("rs274")
-    if rs274 is None:
-        rows.append(("LinuxCNC rs274 -g", "-", "rs274 is not on the path"))
-    else:
-        timed = [_process([rs274, "-g", program]) for _ in range(3)]
-        rates = [million / t["wall"] for t in timed]
-        rows.append(("LinuxCNC rs274 -g, no kinematics", _range(rates), "M blocks/s"))
+    python, rs274 = _peer_environment(), shutil.which("rs274")
+    for kind, what in (("peers", "five_axis"), ("contour", "contour")):
+        program, million = str(files[kind]), options.blocks / 1e6
+        name = f"{what}: {PEER}{'' if isinstance(python, str) else ' ' + _version(python)}"
+        if isinstance(python, str):
+            rows.append((name, "-", python))
+        else:
+            script = str(HERE / "measure.py")
+            found = [_json([str(python), script, "nc_to_dataframe", program]) for _ in range(3)]
+            rates = [million / f["wall"] for f in found]
+            rows.append((f"{name} nc_to_dataframe, no kinematics", _range(rates), "M blocks/s"))
+        name = f"{what}: LinuxCNC rs274 -g, no kinematics"
+        if rs274 is None:
+            rows.append((name, "-", "rs274 is not on the path"))
+        else:
+            timed = [_process([rs274, "-g", program]) for _ in range(3)]
+            rates = [million / t["wall"] for t in timed]
+            rows.append((name, _range(rates), "M blocks/s"))
     return rows
 
 

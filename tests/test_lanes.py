@@ -40,7 +40,7 @@ PLAIN = st.tuples(
     st.sampled_from(["", "N10 ", "N20", "  "]),
     st.sampled_from(["", "G0 ", "G01", "G1 ", "G90 ", "G91 G1 ", "G91"]),
     st.lists(AXIS_WORD, min_size=0, max_size=4),
-    st.sampled_from(["", "F1000", " F20.5"]),
+    st.sampled_from(["", "F1000", " F20.5", " (note)", "; note", "(open", "(a(b)c)", "(a) F5 (b)"]),
     st.sampled_from([" ", ""]),
 ).map(lambda p: p[0] + p[1] + p[4].join(p[2]) + p[3])
 SYSTEMS = st.sampled_from(
@@ -52,7 +52,9 @@ SYSTEMS = st.sampled_from(
 )  # fmt: skip
 OTHER = st.sampled_from(
     [
-        "", "   ", "; comment", "(open comment X1", "G54", "G53 X1", "G92 X5", "G70", "G71 Y2",
+        "", "   ", "; comment", "(note)", " (a) ; b", "(a)(b)\\", "(a (b) c)", "(a))", "N7 (n)",
+        "X1(c)2", "X(c)1", "X1(c)Y2", ";\\", "(a\\",
+        "(open comment X1", "G54", "G53 X1", "G92 X5", "G70", "G71 Y2",
         "#PSET X3", "#CS ON [1,2,3,0,0,30]", "#CS OFF", "P1=4 XP1", "X[P1+1]", "X1 ; tail",
         "#COMMENT BEGIN", "#COMMENT END", "X1 X2", "G1 G0 X1", "x1", "X10 +5", "G4 X2", "D1",
         "#VAR", "#ENDVAR", "/X9", "N5 N6 X1", "X1\\", "%late", "M30", "X1 I2", "G02 X1 I4", "F0",
@@ -307,11 +309,11 @@ def test_a_program_may_be_cut_anywhere(cut):
 SLIP = st.tuples(
     st.integers(0, 200),
     st.integers(0, 1),
-    st.sampled_from(list(" \tXGNFEIR19.-+()\r;#$=[]_x\x00\xff")),
+    st.sampled_from(list(" \tXGNFEIR19.-+()\r;#$=[]_x\x00\xff\\")),
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=300, deadline=None)
 @given(st.lists(PLAIN, min_size=1, max_size=4), st.lists(SLIP, min_size=1, max_size=3))
 def test_lanes_agree_on_slips_of_a_finger(lines, slips):
     """A character too many, or another one, anywhere in plain blocks."""

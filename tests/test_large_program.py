@@ -60,7 +60,8 @@ def test_other_blocks_between_plain_ones_leave_one_stretch():
     """Contours as in a 2.5-axis program: lines, arcs, a coolant word and a comment in each."""
     contour = "(pocket)\nG1 X{} Y0 M8\nG2 X{} Y1 R1\nG1 Y2\nG3 X{} Y3 I-1\nG1 Y0\n"
     lines = (contour.format(k % 50, k % 50 + 1, k % 50) for k in range(400))
-    result = ncscope.run(ncscope.Machine(), f"G90 F900\n{''.join(lines)}M30\n")
+    options = ncscope.Options(bulk=True)
+    result = ncscope.run(ncscope.Machine(), f"G90 F900\n{''.join(lines)}M30\n", options)
     result.check()
     assert (len(result), len(result.stretches)) == (2000, 1)
     assert result.motion[:5].tolist() == ["G01", "G02", "G01", "G03", "G01"]

@@ -3,8 +3,8 @@
 Enters the bytes of a program and an offset at the start of a line. Leaves columns for the run of
 plain blocks that begins there, and the offset of the first line that is none. A plain block is
 `N` first, then G0 to G3, G90 G91, one-letter axis words, I J K R and F, each at most once and with
-a literal number, and nothing else. Every other line is left to the parser, so nothing has to be
-decided twice: what could be wrong is not plain.
+a literal number, and nothing else but comments. Every other line is left to the parser, so nothing
+has to be decided twice: what could be wrong is not plain.
 """
 
 from __future__ import annotations
@@ -115,11 +115,10 @@ def _scan(
     data, size, at, line, columns, signed, powers, lines, blocks, codes, feeds, values, circular,
     centre, stops
 ):  # fmt: skip
-    """Rows read; a blank line between plain blocks belongs to the run. Each line before `size`
-    ends with a line feed, so that no loop below it needs another end."""
+    """Rows read; a line without words between plain blocks belongs to the run. Each line before
+    `size` ends with a line feed, so that no loop below it needs another end."""
     count = _NONE
     while at < size and count < len(lines):
-        start = at
         at, axes = _read_line(
             data, at, columns, signed, powers, blocks, codes, feeds, values, circular, centre, count
         )
@@ -128,17 +127,23 @@ def _scan(
         if axes:
             lines[count], stops[count] = line, at
             count += _ONE
-        elif not _is_blank(data, start):
-            break
         line += 1
     return count
 
 
 @compiled
-def _is_blank(data, at):
-    while data[at] == 32 or data[at] == 9 or data[at] == 13:
+def _behind_comment(data, at):
+    """Offset behind the comment at `at`: that of its bracket or of the line feed; 0 for one that
+    has another bracket in it."""
+    bracket = data[at] == 40
+    at += _ONE
+    while data[at] != 10:
+        if bracket and data[at] == 40:
+            return _NONE
+        if bracket and data[at] == 41:
+            return at + _ONE
         at += _ONE
-    return data[at] == 10
+    return at
 
 
 @compiled
@@ -146,7 +151,7 @@ def _read_line(
     data, at, columns, signed, powers, blocks, codes, feeds, values, circular, centre, row
 ):
     """Offset behind the line and its number of words that make a motion, those of axes and of the
-    centre of an arc; offset 0 when it is not plain."""
+    centre of an arc; offset 0 when it is not plain. A line without any word is."""
     longest = at + _LONGEST
     block, motion, absolute, feed = -1, -1, -1, np.nan
     for axis in range(values.shape[1]):
@@ -159,8 +164,13 @@ def _read_line(
             continue
         if char == 10:
             break
+        if char == 40 or char == 59:
+            at = _behind_comment(data, at)
+            if at == _NONE:
+                return _NONE, 0
+            continue
         number, decimals, whole, sign, at = _number(data, at + _ONE)
-        if at == _NONE or at > longest:
+        if at == _NONE:
             return _NONE, 0
         if char == 78:  # N
             if words > 0 or not whole or number > _HIGHEST_BLOCK:
@@ -197,6 +207,8 @@ def _read_line(
             values[row, column] = -value if sign < 0 else value
             axes += 1
         words += 1
+    if at > longest or (words > 0 and axes == 0):
+        return _NONE, 0
     blocks[row], feeds[row], codes[row, 0], codes[row, 1] = block, feed, motion, absolute
     circular[row] = given
     return at + _ONE, axes
@@ -241,5 +253,6 @@ def _number(data, at):
 
 @compiled
 def _ends_number(char):
-    """A blank, an end of line, or a letter that begins the next word."""
-    return char == 32 or char == 9 or char == 10 or char == 13 or 65 <= char <= 90
+    """A blank, an end of line, a comment, or a letter that begins the next word."""
+    blank = char == 32 or char == 9 or char == 10 or char == 13
+    return blank or 65 <= char <= 90 or char == 40 or char == 59
