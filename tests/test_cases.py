@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import os
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import pytest
@@ -69,13 +69,13 @@ def read_expected(text: str) -> Expected:
     return expected
 
 
-def run_case(folder: Path) -> ncscope.Trajectory:
+def run_case(folder: Path, bulk: bool | None = None) -> ncscope.Trajectory:
+    """bulk: whether every plain block takes the bulk lane, None as the length of the program is."""
     shared = folder / "program"
     path = EXAMPLES / "programs" / shared.read_text().strip() if shared.exists() else None
     machine = machine_of(folder)
-    return ncscope.run(
-        machine, ncscope.load_program(path or folder / "main.nc"), options_of(folder)
-    )
+    options = replace(options_of(folder), bulk=bulk)
+    return ncscope.run(machine, ncscope.load_program(path or folder / "main.nc"), options)
 
 
 def machine_of(folder: Path) -> Machine:
@@ -142,15 +142,16 @@ def _short(value: float) -> str:
     return "0" if text == "-0" else text
 
 
+@pytest.mark.parametrize("bulk", [None, True], ids=["short", "bulk"])
 @pytest.mark.parametrize("folder", CASES, ids=lambda p: p.name)
-def test_case(folder: Path, request: pytest.FixtureRequest) -> None:
+def test_case(folder: Path, bulk: bool | None, request: pytest.FixtureRequest) -> None:
     bug = folder / "known_bug"
     if bug.exists():
         reason = bug.read_text(encoding="utf-8").strip()
         request.applymarker(pytest.mark.xfail(reason=reason, strict=True))
     file = folder / "expected.txt"
     expected = read_expected(file.read_text(encoding="utf-8"))
-    result = run_case(folder)
+    result = run_case(folder, bulk)
     if os.environ.get("NCSCOPE_REWRITE"):
         file.write_text(written(result, expected), encoding="utf-8")
         return

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ncscope
-from ncscope.execution import Options, execute
+from ncscope.execution import Options
 from ncscope.inspection import inspect
 from ncscope.machine import Axis, Machine, OffsetRecord, ZeroOffsets
 
@@ -142,19 +142,6 @@ def test_lanes_agree_on_modulo_axes(lines, turns, shortest, kinematics, sample):
     machine = replace(CA_HEAD, axes=axes, settings=settings)
     text = kinematics + "G90 F500 G1\n" + "\n".join(lines) + "\nM30\n"
     assert_equal(machine, text, sample=sample)
-
-
-@pytest.fixture
-def stepped(monkeypatch):
-    """The lines that the step lane takes."""
-    lines = []
-
-    def counted(machine, state, block):
-        lines.append(block.span.line)
-        return execute(machine, state, block)
-
-    monkeypatch.setattr(ncscope.execution, "execute", counted)
-    return lines
 
 
 def test_modulo_axes_do_take_the_bulk_lane(stepped):

@@ -53,11 +53,14 @@ class Watch:
         self._astray = self.walker.astray
         self._place: _Place | None = None
 
-    def look(self, layout: object, at: int, state: State, blocks: int = 0) -> Diagnostic | None:
-        """What is to be said behind the block `at`, or behind many blocks of the loop lane."""
+    def look(
+        self, layout: object, at: int, state: State, blocks: int = 0, new: bool = False
+    ) -> Diagnostic | None:
+        """What is to be said behind the block `at`, or behind many blocks that are made quickly:
+        those of the loop lane, which has seen all of them, and plain ones, which may be new."""
         if not self.awake:
             return None
-        if not blocks and self._is_new(layout, at):
+        if (new or not blocks) and self._is_new(layout, at):
             self._begin()
             return None
         self._blocks += blocks or 1
@@ -104,17 +107,17 @@ class Watch:
         hint = "what it waits for cannot happen here; a variable of the PLC is given by --set"
         return diagnostic("N4001", loop, message, hint)
 
-    def too_many(self, blocks: int, limit: bool = False) -> Diagnostic:
-        """N4001 with the loop that goes on; limit: the user set it."""
+    def too_many(self, blocks: int, at: Span | None = None) -> Diagnostic:
+        """N4001 with the loop that goes on; at: the block behind the limit that the user set."""
         loop = self._longest()
         hint = "check how the loop ends, or raise --max-blocks"
         if loop is None:
             message = f"more than {blocks} blocks were executed"
-            return diagnostic("N4001", self._here(), message, hint)
+            return diagnostic("N4001", at or self._here(), message, hint)
         message = f"more than {blocks} blocks were executed: the loop in line {loop.line} goes on"
-        if not limit:
+        if at is None:
             hint = "check how the loop ends; a longer program needs --max-blocks with its number"
-        return diagnostic("N4001", self._here(), message, hint, notes=(("the loop", loop),))
+        return diagnostic("N4001", at or self._here(), message, hint, notes=(("the loop", loop),))
 
     def _here(self) -> Span:
         walker = self.walker

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 
 from ncscope.channel.draft import BlockError, Draft
 from ncscope.channel.evaluation import evaluate_number, evaluate_value, write_variable
 from ncscope.channel.state import State
 from ncscope.channel.subprograms import Frame, Load
-from ncscope.diagnostics import Diagnostic, Span, diagnostic
+from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language import tree
 from ncscope.language.structure import (
     LOOPS,
@@ -24,6 +25,7 @@ from ncscope.language.structure import (
     Level,
     Statement,
     jumps,
+    layout,
     shown,
 )
 from ncscope.machine import Machine
@@ -33,8 +35,14 @@ EQUAL = 0.001
 """Values of $SWITCH and $CASE that differ by less are the same."""
 
 
+def _no_runs(source: Source) -> None:
+    return None
+
+
 class Walker:
     """The place in the program, from block to block.
+
+    shortest: of a source, how many plain blocks in a row are one entry of its table.
 
     `at` is the index of the next block. `passes` counts the passes of each loop and backward jump,
     by file and index. `astray` counts those that need not come to an end: all but the passes of a
@@ -42,9 +50,14 @@ class Walker:
     """
 
     def __init__(
-        self, machine: Machine, main: Layout, load: Load | None, skip: frozenset[int]
+        self,
+        machine: Machine,
+        main: Layout,
+        load: Load | None,
+        skip: frozenset[int],
+        shortest: Callable[[Source], int | None] = _no_runs,
     ) -> None:
-        self.machine, self.load, self.skip = machine, load, skip
+        self.machine, self.load, self.skip, self.shortest = machine, load, skip, shortest
         self.layout, self.main = main, main.source
         self.level: Level = main.main or (0, 0)
         self.at = self.level[0]
@@ -53,12 +66,16 @@ class Walker:
         self.passes: dict[tuple[str, int], int] = {}
         self.complained: set[tuple[str, int]] = set()
         self.astray = 0
-        self._counters: dict[tuple[str, int], tuple[int, float]] = {}
+        self.counters: dict[tuple[str, int], tuple[int, float]] = {}
 
     @property
     def entry(self) -> Entry | None:
         """The next block; None at the end of the program level."""
         return self.layout.entries[self.at] if self.at < self.level[1] else None
+
+    def table(self, source: Source) -> Layout:
+        """The table of a further source."""
+        return layout(source, self.skip, self.shortest(source))
 
     def open_statements(self) -> tuple[Statement, ...]:
         """Statements without an end that are open where the program stands."""
@@ -216,9 +233,9 @@ class Walker:
         key = self.layout.source.name, statement.first
         step, count = evaluate_number(draft, control.values[2]), self.passes.get(key, 0)
         now = math.copysign(1.0, step) * evaluate_number(draft, control.target)
-        passes, before = self._counters.get(key, (count, now))
+        passes, before = self.counters.get(key, (count, now))
         self.astray += step == 0 or (passes < count and now <= before)
-        self._counters[key] = count, now
+        self.counters[key] = count, now
 
     # --- jumps ---------------------------------------------------------------------------------
 

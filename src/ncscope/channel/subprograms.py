@@ -15,9 +15,10 @@ from ncscope.channel import contour, offsets
 from ncscope.channel.draft import BlockError, Draft
 from ncscope.channel.evaluation import evaluate_number
 from ncscope.channel.state import CallRequest, Return, Running, State, Stored
+from ncscope.channel.unfolding import unfold
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language import tree
-from ncscope.language.structure import Layout, Level, layout
+from ncscope.language.structure import Layout, Level
 
 if TYPE_CHECKING:
     from ncscope.channel.flow import Walker
@@ -238,7 +239,7 @@ def global_file(walker: Walker, draft: Draft, request: CallRequest) -> tuple[Lay
                 "it must lie in the folder of the program, in one of --subprograms, or below them"
             )
             draft.fail("20369", request.span, f"the subprogram file {name} is not found", hint)
-        found = walker.layouts[name] = layout(source, walker.skip)
+        found = walker.layouts[name] = walker.table(source)
         walker.layouts.setdefault(source.name, found)
     if found.diagnostics:
         raise BlockError(found.diagnostics[0])
@@ -249,6 +250,7 @@ def global_file(walker: Walker, draft: Draft, request: CallRequest) -> tuple[Lay
 
 def _sequence(walker: Walker, draft: Draft, request: CallRequest) -> tuple[Layout, Level, int]:
     """The blocks of a sequence as a level of its own, which ends behind its last block."""
+    unfold(walker)  # it may begin and end at any block
     aim, level = walker.layout, _whole(walker.layout, walker.level)
     if request.name:
         aim, level = global_file(walker, draft, request)

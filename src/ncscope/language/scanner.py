@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from ncscope.compilation import compiled
 
+AXIS_LETTERS = tuple("ABCQUVWXYZ")
+"""The axis names of plain blocks."""
 CHUNK = 65_536
 """Rows of one scan: bounds the memory of a run."""
 LONGEST_LINE = 4000
@@ -70,7 +72,7 @@ class Scanner:
         self._size = np.uint64(_whole_lines(data))
         self.columns = np.full(256, _UNKNOWN, dtype=np.int64)
         for index, name in enumerate(axis_names):
-            if len(name) == 1 and name in "ABCQUVWXYZ":
+            if name in AXIS_LETTERS:
                 self.columns[ord(name)] = index
         n = len(axis_names)
         self._line = np.empty(CHUNK, dtype=np.int64)

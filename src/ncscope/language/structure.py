@@ -7,11 +7,12 @@ Source: TF5200 programming manual
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
-from ncscope.language.parser import is_comment, iterate_blocks
+from ncscope.language.parser import BlockReader, is_comment
+from ncscope.language.scanner import AXIS_LETTERS, CHUNK, Scanner
 from ncscope.language.tree import Block, Call, Control
 
 Diagnostics = tuple[Diagnostic, ...]
@@ -50,12 +51,14 @@ MOST_NESTED = 100
 class Entry:
     """One block as it is executed: without the words behind a call.
 
-    keyword: the control statement without `$` (`#IF` with its `#`), "" for none.
+    keyword: the control statement without `$` (`#IF` with its `#`), "" for none. plain: so many
+    plain blocks, which nothing can jump to, stand for this entry; its own block is empty.
     """
 
     block: Block
     found: Diagnostics
     keyword: str = ""
+    plain: int = 0
 
     @property
     def span(self) -> Span:
@@ -92,13 +95,14 @@ class Layout:
     diagnostics: Diagnostics
 
 
-def layout(source: Source, skip: frozenset[int] = frozenset()) -> Layout:
-    """The table of a source; blocks of the skip levels that are on are left out."""
-    entries = tuple(
-        _entry(block, found)
-        for block, found in iterate_blocks(source)
-        if block.skip is None or block.skip not in skip
-    )
+def layout(
+    source: Source, skip: frozenset[int] = frozenset(), shortest: int | None = None
+) -> Layout:
+    """The table of a source; blocks of the skip levels that are on are left out.
+
+    shortest: runs of so many plain blocks and more are one entry each; None for no such entries.
+    """
+    entries = tuple(_entries(source, skip, shortest))
     main, subprograms = _levels(entries)
     builder = _Builder(entries)
     for level in [*([main] if main else []), *subprograms.values()]:
@@ -107,6 +111,45 @@ def layout(source: Source, skip: frozenset[int] = frozenset()) -> Layout:
         source, entries, main, subprograms, builder.statements, tuple(builder.around),
         builder.labels, builder.computed, tuple(builder.found),
     )  # fmt: skip
+
+
+def _entries(source: Source, skip: frozenset[int], shortest: int | None) -> Iterator[Entry]:
+    reader = BlockReader(source)
+    runs = None if shortest is None else _PlainRuns(source, shortest)
+    for block, found in reader:
+        if block.skip is None or block.skip not in skip:
+            yield _entry(block, found)
+        run = None if runs is None or reader.in_area else runs.at(reader.at)
+        if run is not None:
+            reader.skip_to(run.block.span.end)
+            yield run
+
+
+class _PlainRuns:
+    """Runs of plain blocks, looked for with the scanner of the bulk lane."""
+
+    def __init__(self, source: Source, shortest: int) -> None:
+        self._source, self._shortest = source, shortest
+        self._scanner = Scanner(source.data, AXIS_LETTERS)
+        self._looked_at = 0
+
+    def at(self, offset: int) -> Entry | None:
+        """The run that begins at an offset; None where there is none that is long enough."""
+        if offset < self._looked_at:
+            return None
+        count, stop = 0, offset
+        while True:
+            rows = self._scanner.scan(stop, 1)
+            if len(rows):
+                count, stop = count + len(rows), int(rows.stops[-1])
+            if len(rows) < CHUNK:
+                break
+        self._looked_at = stop
+        if count < max(1, self._shortest):
+            return None
+        span = Span(self._source, offset, stop)
+        block = Block(None, (), None, (), (), None, (), None, True, span)
+        return Entry(block, (), plain=count)
 
 
 def _entry(block: Block, found: Diagnostics) -> Entry:

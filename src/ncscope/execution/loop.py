@@ -1,16 +1,10 @@
-"""The loop: program and machine in, trajectory out.
-
-Blocks come one after the other from the language; the channel makes a step of each. Nothing here
-touches files: messages are values of the result.
-"""
+"""What a run holds from block to block, and what each block does to it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from ncscope.channel.block import Step, execute
 from ncscope.channel.draft import Message
@@ -20,14 +14,12 @@ from ncscope.channel.given import unused
 from ncscope.channel.loop_lane import MOST_ENTRIES, LoopLane, Visited
 from ncscope.channel.start import start_state, switch_on, with_stack
 from ncscope.channel.state import CallRequest, Return, Running, State
-from ncscope.channel.subprograms import Passage, call, leave, nesting_warning, return_in_main
+from ncscope.channel.subprograms import Passage
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.inspection import Inspector
 from ncscope.language import BlockReader, tree
-from ncscope.language.detection import needs_layout
-from ncscope.language.structure import Layout, layout
 from ncscope.machine import Machine
-from ncscope.program import Options, Program, Progress, Sink
+from ncscope.program import Options, Progress, Sink
 from ncscope.recording import Recorder, with_bulges
 from ncscope.trajectory import Stretch, Trajectory
 from ncscope.transitions import Transitions
@@ -37,6 +29,8 @@ if TYPE_CHECKING:
 
 BULK_FROM = 70_000
 """Characters from which the compiled bulk lane is worth the time of its loading."""
+SHORTEST_RUN = 64
+"""Plain blocks in a row that the bulk lane takes faster than the loop lane, where both can."""
 
 
 @dataclass
@@ -59,140 +53,7 @@ class _Log:
         self.stop |= item.is_error or (strict and item.severity is Severity.WARNING)
 
 
-def run(
-    machine: Machine,
-    program: Program | str,
-    options: Options | None = None,
-    progress: Progress | None = None,
-    sink: Sink | None = None,
-) -> Trajectory:
-    """Every motion block of the program, in all coordinate systems.
-
-    program: from `load_program`, or NC text. progress: what it raises ends the run. sink: gets
-    the moves while the program runs; the result then holds everything but them. What is wrong
-    with the program is in `Trajectory.diagnostics`.
-    Raises KeyError for a clamp position or an external variable that the machine does not have.
-    """
-    options = options or Options()
-    source = program.source if isinstance(program, Program) else Source("program", program)
-    loop = _Loop(machine, source, options, progress, sink)
-    try:
-        with np.errstate(over="ignore", invalid="ignore"):  # too large a value is 21883
-            _run_all(loop)
-    except BaseException:  # broken off from outside: what was reached belongs to the sink
-        loop.recorder.finish()
-        raise
-    return loop.result()
-
-
-def _run_all(loop: _Loop) -> None:
-    settings = loop.machine.settings
-    _run_configured(loop, settings.start_file)
-    if not loop.over:
-        if needs_layout(loop.source):
-            _walk(loop)
-        else:
-            _stream(loop)
-    if not loop.log.stop:
-        _run_configured(loop, settings.end_file)
-
-
-def _run_configured(loop: _Loop, name: str) -> None:
-    """A file that the channel list names to run before or behind every program."""
-    if name:
-        _run_files(loop, (CallRequest("L", name, Span(loop.source, 0, 0)),))
-
-
-def _stream(loop: _Loop) -> None:
-    """A program whose blocks follow each other: read as it runs, plain blocks in bulk."""
-    reader = BlockReader(loop.source)
-    blocks = iter(reader)
-    while not loop.over:
-        loop.take_plain(reader)
-        block, found = next(blocks, (None, ()))
-        if block is None:
-            break
-        loop.take(block, found)
-        if loop.returned is not None:
-            loop.add([return_in_main(loop.returned.span)])
-        elif loop.calls and not loop.log.stop:
-            _run_files(loop, loop.calls)
-        loop.report(reader.at)
-
-
-def _run_files(loop: _Loop, calls: tuple[CallRequest, ...]) -> None:
-    """Subprogram files, called from where no table of control statements is needed."""
-    empty = Layout(loop.source, (), None, {}, {}, (), {}, {}, ())
-    walker = Walker(loop.machine, empty, loop.options.load, loop.options.skip)
-    ended, loop.ended = loop.ended, False
-    loop.accept(call(walker, loop.state, calls))
-    _drive(loop, walker)
-    loop.ended = loop.ended or ended
-    loop.watch = None
-
-
-def _walk(loop: _Loop) -> None:
-    """A program with control statements or calls: read once, then walked."""
-    table = layout(loop.source, loop.options.skip)
-    loop.add(table.diagnostics)
-    if table.main is None and table.entries:
-        message = "the file has subprograms only: a main program begins with % and its name"
-        loop.add([diagnostic("20368", table.entries[0].block.span, message)])
-    walker = Walker(loop.machine, table, loop.options.load, loop.options.skip)
-    _drive(loop, walker)
-    if not loop.log.stop:
-        loop.add(walker.open_warnings())
-
-
-def _drive(loop: _Loop, walker: Walker) -> None:
-    """Block by block until the outermost level of the walker ends."""
-    entry = None
-    loop.watch = watch = Watch(walker, not loop.options.max_blocks)
-    while not loop.over:
-        entry = walker.entry
-        if entry is None:
-            if not walker.calls:
-                break
-            loop.accept(leave(walker, loop.state))
-            continue
-        table, at, count = walker.layout, walker.at, loop.count
-        if loop.take_loop(walker):
-            loop.add_one(watch.look(table, at, loop.state, loop.count - count))
-            loop.report(loop.reached)
-            continue
-        if entry.keyword and not entry.block.words:
-            loop.meet(entry.block, entry.found)
-        else:
-            loop.take(entry.block, entry.found)
-        if not loop.log.stop:
-            _go_on(loop, walker)
-            loop.add_one(watch.look(table, at, loop.state))
-        in_main = not walker.calls and walker.layout.source is loop.source
-        loop.report(entry.block.span.start if in_main else loop.reached)
-    if loop.ended and walker.calls and entry is not None:
-        loop.add([nesting_warning(entry.block.span)])
-
-
-def _go_on(loop: _Loop, walker: Walker) -> None:
-    """The jump, calls or return behind the words of a block."""
-    order, calls = loop.returned, loop.calls
-    if order is not None and not walker.calls:
-        loop.add([return_in_main(order.span)])
-        return
-    if order is None and not loop.ended:
-        loop.state, found = walker.step(loop.state)
-        loop.add(found)
-    if loop.log.stop:
-        return
-    if calls:
-        then = "end" if loop.ended else order or ""
-        loop.ended = False
-        loop.accept(call(walker, loop.state, calls, then))
-    elif order is not None and not loop.ended:
-        loop.accept(leave(walker, loop.state, order))
-
-
-class _Loop:
+class Loop:
     """What a run holds from block to block."""
 
     def __init__(
@@ -221,10 +82,8 @@ class _Loop:
         self.returned: Return | None = None
         self.calls: tuple[CallRequest, ...] = ()
         self.watch: Watch | None = None
-        self.bulk_lane: BulkLane | None = None
+        self.bulk_lanes: dict[str, BulkLane] = {}
         self.loops = LoopLane() if options.bulk is not False else None
-        long = len(source) >= BULK_FROM
-        self.bulk = long if options.bulk is None else options.bulk
         self.add(found)
         self.state, found = switch_on(machine, self.state, Span(source, 0, 0))
         self.add(found)
@@ -271,25 +130,39 @@ class _Loop:
 
     def take_plain(self, reader: BlockReader) -> None:
         """All plain blocks that follow, in the bulk lane."""
-        if not self.bulk or reader.in_area or self.transitions.waiting is not None:
+        source = reader.source
+        if reader.in_area or self.transitions.waiting is not None or not self._in_bulk(source):
             return
-        if self.bulk_lane is None:
-            from ncscope.channel.bulk import BulkLane
-
-            self.bulk_lane = BulkLane(self.source, self.machine.settings)
-        more = True
+        lane, more = self._bulk_lane(source), True
         while more:
             left = self.options.max_blocks - self.count if self.options.max_blocks else None
             start = self.state.position.program
-            taken = self.bulk_lane.take(reader, self.state, left)
+            taken = lane.take(reader, self.state, left)
             if taken is None:
                 return
             more = taken.more
             self.state = taken.state
             self.recorder.extend(taken.stretch, start, taken.ways, taken.arcs)
             self.count += len(taken.stretch)
-            self.report(reader.at)
-            self.source.forget(reader.at)
+            self.report(reader.at if source is self.source else self.reached)
+            source.forget(reader.at)
+
+    def shortest_run(self, source: Source) -> int | None:
+        """How many plain blocks of a source in a row are taken together where blocks are walked."""
+        if not self._in_bulk(source):
+            return None
+        return SHORTEST_RUN if self.options.bulk is None else 2
+
+    def _in_bulk(self, source: Source) -> bool:
+        wanted = self.options.bulk
+        return len(source) >= BULK_FROM if wanted is None else wanted
+
+    def _bulk_lane(self, source: Source) -> BulkLane:
+        from ncscope.channel.bulk import BulkLane
+
+        if source.name not in self.bulk_lanes:
+            self.bulk_lanes[source.name] = BulkLane(source, self.machine.settings)
+        return self.bulk_lanes[source.name]
 
     def report(self, offset: int) -> None:
         """The offset in the main program that was reached."""
@@ -334,7 +207,7 @@ class _Loop:
         self.count += 1
         limit = self.options.max_blocks
         if limit and self.count > limit:
-            found = self.watch.too_many(limit, True) if self.watch else too_long(limit, span)
+            found = self.watch.too_many(limit, span) if self.watch else too_long(limit, span)
             self.add([found])
             return False
         return True
