@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ncscope.cli.files import exists
 from ncscope.cli.groups import with_groups
 from ncscope.cli.inputs import pole_note, read_inputs
 from ncscope.cli.options import AnswerOptions, MachineOptions, StartOptions
@@ -29,7 +30,7 @@ def check_command(
 
     found: list[Diagnostic] = []
     for path in paths:
-        if not path.exists():
+        if not exists(path):
             fail(f"{path} does not exist")
         if path.is_dir() or path.suffix.lower() == ".lis":
             found.extend(check_lists(path))

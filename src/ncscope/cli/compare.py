@@ -46,7 +46,9 @@ def compare_command(
     shape = output_form(format, out, poses)
     if shape == "parquet":
         fail("kin compare writes csv or jsonl")
-    if (poses is None) == (not grid):
+    if poses is not None and grid:
+        fail("give one of --poses and --grid")
+    if poses is None and not grid:
         fail("which poses? give --poses FILE, or --grid X=-100:100:5 C=-180:180:7 ..")
     a, b = universal_kinematics(first, id), universal_kinematics(second, id)
     program = _rows(poses, grid, a.axis_names)

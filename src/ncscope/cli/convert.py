@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ncscope.cli.files import reading, writing
+from ncscope.cli.files import exists, reading, writing
 from ncscope.cli.screen import fail, show_diagnostics
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ def convert_command(
     _check(path, to, fields, param, kin)
     with reading(path):
         document = read_document(path)
+    _check_text(document)
     if kin is not None:
         data = _library(document, kin, to is Syntax.OLD)
     else:
@@ -56,10 +57,17 @@ def _check(path: Path, to: Syntax | None, fields: bool, param: bool, kin: int | 
         fail("--kin writes named fields; use --param on its result")
     if kin is None and not (to or fields or param):
         fail("what to? give --to v3, --to v2, --fields, --param or --kin ID")
-    if path.is_dir():
+    if exists(path) and path.is_dir():
         fail(f"{path} is a folder; give one of its lists, such as {path / 'sda.lis'}")
     if not path.is_file():
         fail(f"there is no list {path}")
+
+
+def _check_text(document: ListDocument) -> None:
+    """Ends the process for a file that is no text."""
+    if any(d.id == "N3006" for d in document.diagnostics):
+        show_diagnostics(document.diagnostics)
+        raise typer.Exit(1)
 
 
 def _write(out: Path | None, data: bytes) -> None:

@@ -17,10 +17,10 @@ NOT_WRITTEN = 2
 
 def end_with(work: Callable[[], None]) -> NoReturn:
     """Does the work of the process and ends it; what is wrong is said in one line."""
+    _open_closed()
     try:
         code = _code_of(work)
-        if sys.stdout is not None:  # None where it was closed from the start
-            sys.stdout.flush()
+        sys.stdout.flush()
     except BrokenPipeError:  # the reader has seen enough
         code = 0
     except OSError as error:
@@ -28,6 +28,14 @@ def end_with(work: Callable[[], None]) -> NoReturn:
         print(f"ncscope: cannot write {where}: {error.strerror or error}", file=sys.stderr)
         code = NOT_WRITTEN
     _leave(code)
+
+
+def _open_closed() -> None:
+    """Output that was closed from the start (`>&-`) goes nowhere."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            nowhere = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  # to the end
+            setattr(sys, name, nowhere)
 
 
 def _code_of(work: Callable[[], None]) -> int:

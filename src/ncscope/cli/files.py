@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,7 +20,7 @@ def reading(path: Path | None) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        fail(f"cannot read {path}: {error.strerror or error}")
+        fail(f"cannot read {path}: {_reason(error)}")
 
 
 @contextmanager
@@ -30,7 +31,7 @@ def writing(path: Path | None) -> Iterator[None]:
     except BrokenPipeError:  # the reader has seen enough
         raise
     except OSError as error:
-        fail(f"cannot write {path or 'the output'}: {error.strerror or error}")
+        fail(f"cannot write {path or 'the output'}: {_reason(error)}")
 
 
 @contextmanager
@@ -44,15 +45,33 @@ def text_output(path: Path | None) -> Iterator[TextIO]:
             yield stream
 
 
+def _reason(error: OSError) -> str:
+    """The reason alone; pyarrow writes it behind a sentence of its own."""
+    text = error.strerror or str(error)
+    behind = re.search(r"\[errno \d+\] (.+)", text)
+    return behind[1] if behind else text
+
+
+def exists(path: Path) -> bool:
+    """Whether something has this name; ends the process where nobody may know."""
+    with reading(path):
+        found = path.exists()
+    return found
+
+
 def same_file(one: Path, other: Path) -> bool:
     """Whether both paths lead to one file that exists."""
     return one.exists() and other.exists() and one.samefile(other)
 
 
-def check_target(out: Path, program: Path) -> None:
-    """Ends the process when the output would overwrite the program."""
-    if same_file(out, program):
-        fail(f"--out {out} is the program itself")
+def check_target(out: Path, program: Path, *others: Path | None) -> None:
+    """Ends the process when the output would overwrite the program or another file of the run."""
+    with writing(out):
+        if same_file(out, program):
+            fail(f"--out {out} is the program itself")
+        for other in others:
+            if other is not None and other.is_file() and same_file(out, other):
+                fail(f"--out {out} is a file that is read")
 
 
 def write_document(out: Path, data: bytes) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ncscope.cli.files import reading
+from ncscope.cli.files import exists, reading
 from ncscope.cli.options import AnswerOptions, MachineOptions, StartOptions, read_levels
 from ncscope.cli.screen import fail, progress_bar
 from ncscope.cli.settings import Values, read_settings, typed_settings
@@ -69,7 +69,7 @@ def read_inputs(
     external = _checked_values(machine, values)
     with reading(path):
         program = load_program(path)
-    folders = [path.parent, *(answers.folders or ())]
+    folders = [path.parent, *_folders(answers.folders)]
     options = Options(
         clamp=start.clamp,
         skip=skip,
@@ -82,6 +82,16 @@ def read_inputs(
         manual=_read_rows(answers.manual, found),
     )
     return Inputs(machine, found, program, options)
+
+
+def _folders(paths: list[Path] | None) -> list[Path]:
+    """The folders of --subprograms; ends the process for what is none."""
+    for path in paths or ():
+        if not exists(path):
+            fail(f"--subprograms {path}: there is no such folder")
+        if not path.is_dir():
+            fail(f"--subprograms {path}: it is no folder; give the folder of the file")
+    return paths or []
 
 
 def _check_clamp(machine: Machine, clamp: int | None) -> None:
@@ -123,7 +133,7 @@ def read_machine(
     if path is not None:
         from ncscope.lists import load_machine
 
-        if not path.exists():
+        if not exists(path):
             fail(f"machine {path} does not exist")
         machine, problems = load_machine(path)
         found = list(problems)

@@ -28,6 +28,11 @@ class MachineOptions:
         typer.Option("--kinematics", help="Python file with kinematics of the user; it is run."),
     ] = None
 
+    @property
+    def files(self) -> tuple[Path | None, ...]:
+        """What no output may overwrite."""
+        return self.machine, self.kinematics
+
 
 @dataclass(frozen=True)
 class StartOptions:
@@ -61,6 +66,11 @@ class AnswerOptions:
         list[Path] | None,
         typer.Option("--subprograms", help="Another folder in which called files may lie."),
     ] = None
+
+    @property
+    def files(self) -> tuple[Path | None, ...]:
+        """What no output may overwrite."""
+        return self.probe, self.manual
 
 
 BlocksOption = Annotated[

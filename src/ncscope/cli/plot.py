@@ -57,7 +57,7 @@ def plot_command(
     if program is None:
         write_document(out, _machine_picture(setup, id, tool_length, form))
         return
-    check_target(out, program)
+    check_target(out, program, *setup.files, *answers.files)
     inputs = read_inputs(
         program, setup, start, answers, max_blocks=max_blocks, sample=read_sample(sample)
     )

@@ -20,6 +20,7 @@ from ncscope.cli.options import (
     StartOptions,
     read_sample,
 )
+from ncscope.cli.place import Place, read_block
 from ncscope.cli.screen import fail
 
 if TYPE_CHECKING:
@@ -49,8 +50,8 @@ def report_command(
     if out.suffix.lower() != ".html":
         fail(f"--out {out}: the name must end in .html")
     need_pictures()
-    check_target(out, program)
-    wanted = _read_blocks(explain)
+    check_target(out, program, *setup.files, *answers.files)
+    wanted = _read_blocks(program, explain)
     from ncscope.views.report import Subject, report_page
 
     inputs = read_inputs(
@@ -64,27 +65,26 @@ def report_command(
         inputs.faults,
         _lists(setup.machine),
         _in_words(start),
-        [_explained(result, inputs.program, text) for text in wanted],
+        [_explained(result, inputs.program, place) for place in wanted],
     )
     write_document(out, report_page(subject))
     raise typer.Exit(0 if result.ok and inputs.usable else 1)
 
 
-def _read_blocks(text: str) -> list[str]:
-    parts = [part.strip().upper() for part in text.split(",") if part.strip()]
-    for part in parts:
-        if not part.removeprefix("N").isdecimal():
-            fail(f"--explain {text}: write blocks as N40,N60 or lines as 12,15")
-    return parts
+def _read_blocks(program: Path, text: str) -> list[Place]:
+    parts = [part.strip() for part in text.split(",") if part.strip()]
+    places = [place for part in parts if (place := read_block(program, part))]
+    if len(places) < len(parts):
+        fail(f"--explain {text}: write blocks as N40,N60 or lines as 12,15")
+    return places
 
 
-def _explained(result: Trajectory, program: Program, text: str) -> tuple[str, Explanation]:
+def _explained(result: Trajectory, program: Program, place: Place) -> tuple[str, Explanation]:
     try:
-        number = text.removeprefix("N")
-        line = int(number) if number == text else result.line_of_block(int(number))
+        line = place.line_in(result)
         explanation = result.explain(line)
     except KeyError as error:
-        fail(f"--explain {text}: {error.args[0]}", code=1)
+        fail(f"--explain {place.name}: {error.args[0]}", code=1)
     return program.source.line_text(line), explanation
 
 

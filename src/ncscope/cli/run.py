@@ -51,7 +51,7 @@ def run_command(
     """Run an NC program and show where the tool and every axis go."""
     shape = _format(format, out)
     if out is not None:
-        check_target(out, program)
+        check_target(out, program, *setup.files, *answers.files)
     _check_sample(sample)
     inputs = read_inputs(
         program, setup, start, answers, max_blocks=max_blocks, strict=strict, sample=sample

@@ -26,9 +26,10 @@ LAST_DOCUMENTED = 56
 
 _MARKED = re.compile(
     rf"^[ \t]*(?P<mark>{re.escape(MARK)})(?P<slot>(?:kin_step\[0\]\.)?trafo\[\d+\])\.id[ \t]+"
-    r"(?P<id>\d+)\b",
+    r"(?P<id>\d{1,18})\b",
     re.MULTILINE | re.IGNORECASE,
 )
+_ID = re.compile(r"[0-9]{1,18}")
 _WITHOUT_OLD_FORM = re.compile(
     r"(kin_step\[[1-9]\d*\]|trafo_pcs\[\d*\]|default_id_of_kin_step\[)", re.IGNORECASE
 )
@@ -152,7 +153,7 @@ def _set(slot: Slot, entries: list[tuple[Entry, str]]) -> _Set:
         if field not in ("id", "type") or slot.fixed_id is not None:
             continue
         heads.append(entry)
-        number = int(entry.value_text) if entry.value_text.isdigit() else 0
+        number = int(entry.value_text) if _ID.fullmatch(entry.value_text) else 0
         id, type = (number, type) if field == "id" else (id, number)
     others = tuple((e, f) for e, f in entries if e not in heads)
     return _Set(slot, id, type, tuple(heads), others)

@@ -7,6 +7,7 @@ Source: P-CHAN-00490 to -00496, P-CHAN-00752 to -00757, P-CHAN-00831
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -24,6 +25,7 @@ GROUPS = {"bcs": "#BCS", "acs": "#ACS", "cs": "#CS"}
 """Groups of a stack from bottom to top."""
 MOST_IN_STACK = 10
 LONGEST_ID = 7
+_NUMBER = re.compile(r"[0-9]{1,18}")
 
 
 @dataclass
@@ -100,8 +102,8 @@ def _bad_id(id: Id, name: Reading, result: Configured) -> Diagnostic | None:
 
 
 def id_of(text: str) -> Id:
-    """A number as the program writes it, or a name."""
-    return int(text) if text.isascii() and text.isdigit() else text
+    """A number as the program writes it, or a name; a number too long for one stays a text."""
+    return int(text) if _NUMBER.fullmatch(text) else text
 
 
 # --- stacks ------------------------------------------------------------------------------------

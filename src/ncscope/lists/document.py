@@ -111,7 +111,7 @@ class _Parser:
 
     def document(self) -> ListDocument:
         offset = self._after_mark()
-        if self._has_no_line_end(offset):
+        if self._is_no_text(offset) or self._has_no_line_end(offset):
             return ListDocument(self.source, (), tuple(self.found))
         for line in self.source.text[offset:].split("\n"):
             if not self._line(line.rstrip("\r"), offset):
@@ -128,6 +128,18 @@ class _Parser:
             hint = "save the list as ANSI (Latin-1) text"
             self.found.append(diagnostic("21798", span, message, hint))
         return len(mark)
+
+    def _is_no_text(self, offset: int) -> bool:
+        """Reports zero bytes, which no text has; behind its end old editors filled up with them."""
+        at = self.source.text.rstrip("\0\x1a").find("\0", offset)
+        if at < 0:
+            return False
+        hint = "save the list as ANSI (Latin-1) text"
+        span = Span(self.source, at, at + 1)
+        self.found.append(
+            diagnostic("N3006", span, "the list is no text: it holds zero bytes", hint)
+        )
+        return True
 
     def _has_no_line_end(self, offset: int) -> bool:
         """Reports lines that end with CR alone: all of them are one line to the control."""

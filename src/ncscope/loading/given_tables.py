@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from ncscope.channel.given import GivenRows, read_rows
-from ncscope.diagnostics import Diagnostic, Source
+from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
+from ncscope.loading.content import content
 
 
 def load_rows(path: str | Path) -> tuple[GivenRows, tuple[Diagnostic, ...]]:
@@ -14,5 +15,9 @@ def load_rows(path: str | Path) -> tuple[GivenRows, tuple[Diagnostic, ...]]:
     Raises OSError when the file cannot be read.
     """
     path = Path(path)
-    text = path.read_bytes().decode("utf-8-sig", "replace")
-    return read_rows(Source(path.name, text))
+    text = content(path).decode("utf-8-sig", "replace")
+    source = Source(path.name, text)
+    if "\0" in text:
+        what = "the file is no text: it holds zero bytes"
+        return GivenRows(path.name, ()), (diagnostic("N4010", Span(source, 0, 0), what),)
+    return read_rows(source)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
+from ncscope.loading.content import content, refuse_device
 
 Array = NDArray[np.float64]
 
@@ -134,7 +135,7 @@ def _number(text: str, separator: str) -> float | None:
 
 
 def _source(path: Path) -> Source:
-    return Source(path.name, path.read_bytes().decode("latin-1").removeprefix("\xef\xbb\xbf"))
+    return Source(path.name, content(path).decode("latin-1").removeprefix("\xef\xbb\xbf"))
 
 
 def _lines(source: Source) -> Iterator[tuple[int, str]]:
@@ -154,6 +155,7 @@ def _open_parquet(path: Path) -> tuple[PoseTable | None, tuple[Diagnostic, ...]]
     except ImportError:
         hint = "install the extra: pip install 'ncscope[table]'"
         return None, (_unreadable(path, "Parquet needs pyarrow", hint),)
+    refuse_device(path)
     path.open("rb").close()
     try:
         names = tuple(pyarrow.parquet.read_schema(path).names)

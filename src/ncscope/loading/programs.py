@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ncscope.diagnostics import Source
 from ncscope.execution import Program
+from ncscope.loading.content import content
 
 MAPPED_FROM = 32 * 1024 * 1024
 """Bytes from which a file is mapped."""
@@ -74,4 +75,4 @@ def _content(path: Path) -> NDArray[np.uint8]:
     file that its editor shortens meanwhile would end the process."""
     if path.stat().st_size >= MAPPED_FROM:
         return np.memmap(path, dtype=np.uint8, mode="r")
-    return np.frombuffer(path.read_bytes(), dtype=np.uint8)
+    return np.frombuffer(content(path), dtype=np.uint8)

@@ -17,6 +17,7 @@ from pathlib import Path
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.kinematics.step import Builder
 from ncscope.kinematics.user import DEVIATION, builder_of, faults_of
+from ncscope.loading.content import content
 from ncscope.machine import Machine
 
 GROUP = "ncscope.kinematics"
@@ -49,7 +50,7 @@ def read_kinematics(
 ) -> tuple[Mapping[int, Builder], tuple[Diagnostic, ...]]:
     """The kinematics classes that a Python file defines, by id. Raises OSError."""
     path = Path(path)
-    data = path.read_bytes()
+    data = content(path)
     source = Source(path.name, data.decode("utf-8", "replace"))
     module = types.ModuleType(f"ncscope_user_{path.stem}")
     module.__file__ = str(path)

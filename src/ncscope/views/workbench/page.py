@@ -25,7 +25,7 @@ KEYS = (
 )
 """Keys of the page; single keys count outside of the editor and of fields."""
 NO_MACHINE = "axes X Y Z"
-MOST_LEVELS = 10
+LEVELS = [str(level) for level in range(1, 11)]
 Choices = tuple[ui.select, ui.select]
 """Where program and machine are chosen."""
 
@@ -117,7 +117,7 @@ def _options_dialog(session: Session) -> ui.dialog:
 
         def run() -> None:
             levels = [part.strip() for part in str(skip.value or "").split(",") if part.strip()]
-            if not all(level.isdigit() and 1 <= int(level) <= MOST_LEVELS for level in levels):
+            if not all(level in LEVELS for level in levels):
                 problem.set_text("skip levels are 1 to 10 with commas between them")
                 return
             problem.set_text("")
