@@ -8,15 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ncscope.cli.files import text_output
-from ncscope.cli.kin_options import (
-    FormatOption,
-    IdOption,
-    LengthOption,
-    OutOption,
-    PosesOption,
-    output_form,
-)
-from ncscope.cli.kinematics import universal_kinematics
+from ncscope.cli.groups import with_groups
+from ncscope.cli.kin_options import KinOptions, PosesOption, output_form
+from ncscope.cli.kinematics import computing, universal_kinematics
 from ncscope.cli.pose_input import grid_rows, poses_file
 from ncscope.cli.screen import console, fail
 
@@ -25,6 +19,7 @@ if TYPE_CHECKING:
     from ncscope.kinematics.comparison import Comparison
 
 
+@with_groups
 def compare_command(
     first: Annotated[Path, typer.Argument(metavar="A", help="Machine of the control's data set.")],
     second: Annotated[Path, typer.Argument(metavar="B", help="The real, measured machine.")],
@@ -34,29 +29,24 @@ def compare_command(
         typer.Option("--grid", metavar="X=-100:100:5 ..", help="FROM:TO:COUNT or one value."),
     ] = None,
     rows: Annotated[bool, typer.Option("--rows", help="Every pose, not only the worst.")] = False,
-    id: IdOption = None,
-    tool_length: LengthOption = 0.0,
-    format: FormatOption = None,
-    out: OutOption = None,
+    *,
+    asked: KinOptions,
 ) -> None:
     """How far machine B is from A at the tool tip and per axis, before and after compensation."""
-    from ncscope.kinematics import KinematicsError
     from ncscope.kinematics.comparison import compare
 
-    shape = output_form(format, out, poses)
+    shape = output_form(asked, poses)
     if shape == "parquet":
         fail("kin compare writes csv or jsonl")
     if poses is not None and grid:
         fail("give one of --poses and --grid")
     if poses is None and not grid:
         fail("which poses? give --poses FILE, or --grid X=-100:100:5 C=-180:180:7 ..")
-    a, b = universal_kinematics(first, id), universal_kinematics(second, id)
+    a, b = universal_kinematics(first, asked.id), universal_kinematics(second, asked.id)
     program = _rows(poses, grid, a.axis_names)
-    try:
-        item = compare(a, b, program, tool_length)
-    except KinematicsError as error:
-        fail(f"{error.id}: {error.message}", code=1)
-    _write(shape, out, item, rows)
+    with computing():
+        item = compare(a, b, program, asked.tool_length)
+    _write(shape, asked.out, item, rows)
     _say_unsolved(item)
 
 

@@ -11,15 +11,8 @@ from ncscope.cli.compare import compare_command
 from ncscope.cli.extras import need_parquet
 from ncscope.cli.files import text_output, writing
 from ncscope.cli.groups import with_groups
-from ncscope.cli.kin_options import (
-    FormatOption,
-    IdOption,
-    LengthOption,
-    OutOption,
-    PosesOption,
-    output_form,
-)
-from ncscope.cli.kinematics import chosen_kinematics
+from ncscope.cli.kin_options import KinOptions, PosesOption, output_form
+from ncscope.cli.kinematics import chosen_kinematics, computing
 from ncscope.cli.options import MachineOptions
 from ncscope.cli.pose_input import near_values, poses_file, word_row
 from ncscope.cli.screen import console, fail
@@ -54,31 +47,26 @@ def forward_command(
     poses: PosesOption = None,
     *,
     setup: MachineOptions,
-    id: IdOption = None,
-    tool_length: LengthOption = 0.0,
-    format: FormatOption = None,
-    out: OutOption = None,
+    asked: KinOptions,
 ) -> None:
     """Where the tool is for given axis values (mm, degrees)."""
-    from ncscope.kinematics import KinematicsError, UniversalKinematics
+    from ncscope.kinematics import UniversalKinematics
     from ncscope.kinematics.poses import poses_of_axes, poses_of_step
 
-    shape = output_form(format, out, poses)
-    kin, names = chosen_kinematics(setup.machine, id, setup.kinematics)
+    shape = output_form(asked, poses)
+    kin, names = chosen_kinematics(setup.machine, asked.id, setup.kinematics)
     given = [*(words or []), *(axes or [])]
     if poses is not None:
         _one_source(bool(given))
         rows = poses_file(poses).rows(names, "acs_")
     else:
         rows = word_row(given, names, "--axes")
-    try:
+    with computing():
         if isinstance(kin, UniversalKinematics):
-            found = poses_of_axes(kin, rows, tool_length)
+            found = poses_of_axes(kin, rows, asked.tool_length)
         else:
-            found = poses_of_step(kin, names, axes=rows, tool_length=tool_length)
-    except KinematicsError as error:
-        fail(f"{error.id}: {error.message}", code=1)
-    _write(shape, out, kin, found, tool_length)
+            found = poses_of_step(kin, names, axes=rows, tool_length=asked.tool_length)
+    _write(shape, asked, kin, found)
 
 
 @kin_app.command("inverse", cls=WordsCommand)
@@ -100,31 +88,24 @@ def inverse_command(
     both: Annotated[bool, typer.Option("--both", help="Both poses of the rotary axes.")] = False,
     *,
     setup: MachineOptions,
-    id: IdOption = None,
-    tool_length: LengthOption = 0.0,
-    format: FormatOption = None,
-    out: OutOption = None,
+    asked: KinOptions,
 ) -> None:
     """Where the axes go for programmed words, or for a tool tip and direction (mm, degrees)."""
-    from ncscope.kinematics import KinematicsError
-
-    shape = output_form(format, out, poses)
-    kin, names = chosen_kinematics(setup.machine, id, setup.kinematics)
+    shape = output_form(asked, poses)
+    kin, names = chosen_kinematics(setup.machine, asked.id, setup.kinematics)
     given = [*(words or []), *(program or [])]
     start = near_values(near, names)
     by_tool = tip is not None or direction is not None
     _one_source(sum((bool(given), by_tool, poses is not None)) > 1)
     table = None if poses is None else poses_file(poses)
-    try:
+    with computing():
         if by_tool or (table is not None and table.has_tool(names)):
             tool = table.tool() if table else _tool(tip, direction)
-            found = _of_tool(kin, tool, tool_length, start, both)
+            found = _of_tool(kin, tool, asked.tool_length, start, both)
         else:
             rows = table.rows(names, "pcs_") if table else word_row(given, names, "--program")
-            found = _of_program(kin, names, rows, tool_length, start, both)
-    except KinematicsError as error:
-        fail(f"{error.id}: {error.message}", code=1)
-    _write(shape, out, kin, found, tool_length)
+            found = _of_program(kin, names, rows, asked.tool_length, start, both)
+    _write(shape, asked, kin, found)
 
 
 def _of_tool(
@@ -181,9 +162,7 @@ def _one_source(several: bool) -> None:
         fail("give one of words, --tip with --direction, and --poses")
 
 
-def _write(
-    shape: str, out: Path | None, kin: KinematicStep, found: Poses, tool_length: float
-) -> None:
+def _write(shape: str, asked: KinOptions, kin: KinematicStep, found: Poses) -> None:
     from ncscope.kinematics import UniversalKinematics, explain_status
     from ncscope.views import poses as view
 
@@ -198,11 +177,11 @@ def _write(
         kind = kin.name
         if isinstance(kin, UniversalKinematics):
             kind = f"{'RTCP' if kin.rtcp else 'complete transformation'}, mode {kin.mode}"
-        terminal.print(f"kinematics {kin.id}, {kind}, tool length {tool_length:g} mm")
+        terminal.print(f"kinematics {kin.id}, {kind}, tool length {asked.tool_length:g} mm")
         terminal.print(view.poses_table(found, explain))
     else:
-        _write_file(shape, out, found, explain)
-    if failed and (shape != "jsonl" or out is not None):
+        _write_file(shape, asked.out, found, explain)
+    if failed and (shape != "jsonl" or asked.out is not None):
         typer.echo(f"{failed} of {len(found)} poses have no solution", err=True)
     raise typer.Exit(1 if failed else 0)
 

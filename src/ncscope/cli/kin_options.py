@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -21,11 +22,6 @@ class KinFormat(StrEnum):
     CSV = "csv"
 
 
-IdOption = Annotated[
-    int | None, typer.Option("--id", help="Kinematic id; needed where there are several.")
-]
-
-
 def finite_length(value: float) -> float:
     """The length of --tool-length; ends the process for nan and infinity."""
     if not math.isfinite(value):
@@ -33,18 +29,32 @@ def finite_length(value: float) -> float:
     return value
 
 
-LengthOption = Annotated[
-    float, typer.Option("--tool-length", help="Tool length, mm.", callback=finite_length)
-]
 PosesOption = Annotated[
     Path | None, typer.Option("--poses", help="CSV or Parquet file with a column for each axis.")
 ]
-FormatOption = Annotated[KinFormat | None, typer.Option("--format", help="table, jsonl or csv.")]
-OutOption = Annotated[Path | None, typer.Option("--out", help="File: .csv, .jsonl or .parquet.")]
 
 
-def output_form(format: KinFormat | None, out: Path | None, poses: Path | None) -> str:
+@dataclass(frozen=True)
+class KinOptions:
+    """Which kinematics of the machine, with which tool, and where the poses go."""
+
+    id: Annotated[
+        int | None, typer.Option("--id", help="Kinematic id; needed where there are several.")
+    ] = None
+    tool_length: Annotated[
+        float, typer.Option("--tool-length", help="Tool length, mm.", callback=finite_length)
+    ] = 0.0
+    format: Annotated[KinFormat | None, typer.Option("--format", help="table, jsonl or csv.")] = (
+        None
+    )
+    out: Annotated[Path | None, typer.Option("--out", help="File: .csv, .jsonl or .parquet.")] = (
+        None
+    )
+
+
+def output_form(options: KinOptions, poses: Path | None) -> str:
     """The form of the output: that of --format, else of the file's name."""
+    format, out = options.format, options.out
     if out is None:
         return str(format or KinFormat.TABLE)
     if poses is not None and same_file(out, poses):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
@@ -26,6 +28,17 @@ def universal_kinematics(path: Path | None, id: int | None) -> UniversalKinemati
     if not isinstance(kinematics, UniversalKinematics):
         fail(f"kinematics {kinematics.id} is not of type 91, the universal kinematics")
     return kinematics
+
+
+@contextmanager
+def computing() -> Iterator[None]:
+    """Ends the process where the kinematics cannot do what is asked inside."""
+    from ncscope.kinematics import KinematicsError
+
+    try:
+        yield
+    except KinematicsError as error:
+        fail(f"{error.id}: {error.message}", code=1)
 
 
 def chosen_kinematics(
