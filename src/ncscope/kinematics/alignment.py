@@ -31,8 +31,7 @@ def aligned(
     Raises KinematicsError: 20662 without a rotary axis, 292006 with three of them, 292014 for a
     direction out of reach.
     """
-    chain = kinematics.chain
-    rotary = list(chain.rotary)
+    rotary = list(kinematics.chain.rotary)
     if not rotary:
         raise KinematicsError("20662", "the kinematics has no rotary axis to turn the tool with")
     if len(rotary) > 2:
@@ -42,16 +41,20 @@ def aligned(
     wanted = np.array([direction, direction], dtype=float)
     angles, status = solver.solve(wanted, start, np.array([1, -1], np.int8))
     if status.any():
-        low, high = solver.reach
-        raise KinematicsError(
-            "292014",
-            "the rotary axes cannot bring the tool into this direction",
-            hint=f"the angle between tool and first rotary axis can be {low:.4f} to {high:.4f} "
-            f"degrees; here it is {solver.tilt(wanted[0]):.4f}",
-        )
+        raise _out_of_reach(solver, wanted[0])
     result = np.array([now, now])
     result[:, rotary] = angles[:, : len(rotary)]
     return with_linear(kinematics, result, now, tool_length)
+
+
+def _out_of_reach(solver: OrientationSolver, direction: Array) -> KinematicsError:
+    low, high = solver.reach
+    return KinematicsError(
+        "292014",
+        "the rotary axes cannot bring the tool into this direction",
+        hint=f"the angle between tool and first rotary axis can be {low:.4f} to {high:.4f} "
+        f"degrees; here it is {solver.tilt(direction):.4f}",
+    )
 
 
 def pose_of(kinematics: UniversalKinematics, axes: ArrayLike) -> int:

@@ -1,24 +1,9 @@
-"""Every diagnostic id with its severity and explanation: one table, from which the docs page comes.
+"""Ids of the control: its own numbers, where it has one for the same mistake."""
 
-Numbers are the control's own where it has one for the same mistake; `N1...` are ours for the
-language, `N2...` for the channel, `N3...` for lists, `N4...` for the run and its options.
-Ids are stable and never reused.
-"""
-
-from __future__ import annotations
-
-from typing import NamedTuple
-
-
-class Entry(NamedTuple):
-    """Severity (`error`, `warning`, `note`) and a sentence that explains the id."""
-
-    severity: str
-    title: str
-
+from ncscope.catalogue.entry import Entry
 
 # fmt: off
-CATALOGUE: dict[str, Entry] = {
+OF_CONTROL: dict[str, Entry] = {
     # Lists
     "1019": Entry("warning", "A BOOLEAN entry of a list is neither 0 nor 1."),
     "1020": Entry("warning", "The value of a list entry is not a number."),
@@ -302,86 +287,5 @@ CATALOGUE: dict[str, Entry] = {
     "21256": Entry("error", "An axis name is used twice."),
     "21257": Entry("error", "An axis index is used twice."),
     "21508": Entry("error", "AX cannot be given with CMDPOS."),
-    # Language, our own
-    "N1001": Entry("error", "A character does not belong to the NC language."),
-    "N1002": Entry("error", "A value is missing after a word."),
-    "N1003": Entry("error", "A string is not closed."),
-    "N1004": Entry("error", "A block is longer than 4000 characters."),
-    "N1005": Entry("error", "The command is written wrongly."),
-    "N1006": Entry("error", "The argument of a function is out of range."),
-    "N1007": Entry("error", "A control statement has no beginning that it belongs to."),
-    "N1008": Entry("error", "A text is longer than 4000 characters."),
-    # Channel, our own
-    "N2001": Entry("error", "The command moves positions and is not supported."),
-    "N2002": Entry("note", "The command has no effect on positions."),
-    "N2003": Entry("error", "A word is not used by any command in this block."),
-    "N2004": Entry("error", "The G function needs at least one axis."),
-    "N2005": Entry("error", "#PSET under a contour rotation is not modelled."),
-    "N2006": Entry("note", "An option of the command is ignored."),
-    "N2020": Entry("error", "The scale factors are not allowed, or are changed while they act."),
-    "N2021": Entry("error", "G20 to G23 and G351 together are not modelled."),
-    "N2022": Entry("error", "A contour rotation inside #MCS is not modelled."),
-    "N2023": Entry("warning", "#MCS is switched to the state that it already has."),
-    "N2024": Entry("note", "No probe answers; the measuring run goes to its target."),
-    "N2025": Entry("error", "A measuring offset that does not exist cannot be included or ended."),
-    "N2026": Entry("note", "Manual mode moves nothing: no jog increments are given."),
-    "N2027": Entry("error", "G74 needs at least one axis."),
-    "N2029": Entry("warning", "A tool changes more of the kinematics than its zero position."),
-    "N2028": Entry("error", "A correction of the tool length is active already."),
-    "N2035": Entry("error", "G04 needs its time."),
-    "N2036": Entry("warning", "A diameter is negative."),
-    "N2037": Entry("warning", "The path of the cutter centre is not computed."),
-    "N2038": Entry("warning", "The curve of a spline is not computed."),
-    "N2032": Entry("error", "A chamfer or rounding stands in the wrong kind of block."),
-    "N2033": Entry("error", "A chamfer or rounding does not fit between its motions."),
-    "N2034": Entry("error", "Coordinates change between the motions of a chamfer or rounding."),
-    "N2030": Entry("warning", "The centre of an arc was moved farther than one of its limits."),
-    "N2040": Entry("error", "The axis of #TLAX is no main axis."),
-    "N2041": Entry("error", "The probe gave no signal, and the measuring run needs one."),
-    "N2042": Entry("error", "No row is left in the file of probe answers or jog increments."),
-    "N2043": Entry("error", "The row of probe answers or jog increments does not fit the block."),
-    "N2044": Entry("warning", "Rows of probe answers or jog increments were not used."),
-    "N2050": Entry("error", "#ECS needs the tool direction of an active transformation."),
-    "N2051": Entry("error", "A system of #CS ON lies between the stack and the machine system."),
-    "N2099": Entry("error", "A block number is too large."),
-    "N2090": Entry("warning", "The program gave a warning of its own (#ERROR with RC=0)."),
-    "N2091": Entry("error", "The program stopped with an error of its own (#ERROR)."),
-    "N2092": Entry("warning", "A requested axis is in the channel already."),
-    "N2052": Entry("error", "A system already has offsets of its own for the further axes."),
-    "N2071": Entry("warning", "The axes left the pose of the transformation under #MCS."),
-    # Lists, our own
-    "N3001": Entry("warning", "The line of a list is not an entry."),
-    "N3002": Entry("warning", "A decimal comma stands where a decimal point belongs."),
-    "N3003": Entry("note", "The entry is read and has no effect."),
-    "N3004": Entry("warning", "An axis has no axis list; its type was assumed from its name."),
-    "N3005": Entry("warning", "A fraction stands where a whole number of list units belongs."),
-    "N3006": Entry("error", "A list that is named cannot be read."),
-    "N3007": Entry("warning", "A list entry overwrites an earlier one with another value."),
-    "N3008": Entry("error", "A folder or start-up list names no machine list."),
-    "N3009": Entry("warning", "The kinematics will fail when it is selected."),
-    "N3010": Entry("warning", "The kinematics looks unusual; check it."),
-    "N3011": Entry("warning", "A key of a list is spelled with other upper and lower case."),
-    "N3012": Entry("warning", "A list in the folder of a machine has a name that says no kind."),
-    # Conversion of lists, our own
-    "N3501": Entry("warning", "A part of a list has no form in the syntax that is asked for."),
-    "N3502": Entry("error", "A library kinematics cannot be turned into the universal one."),
-    # Kinematics of the user, our own
-    "N2601": Entry("error", "A class of the user's kinematics failed."),
-    "N2602": Entry("error", "The user's kinematics has no solution."),
-    "N4301": Entry("error", "A kinematics of the user cannot be loaded."),
-    # Run, our own
-    "N4001": Entry("error", "A loop never ends, or the program has too many blocks."),
-    "N4002": Entry("error", "The program cannot be read."),
-    "N4003": Entry("error", "A message file cannot be written."),
-    "N4004": Entry("warning", "The points along a motion are farther apart than the tolerance."),
-    "N4010": Entry("error", "A file of probe answers or jog increments is written wrongly."),
-    # What a run demands of the machine, our own
-    "N4101": Entry("warning", "An axis goes beyond its software limit."),
-    "N4102": Entry("warning", "A rotary axis swings while the tool passes its singular direction."),
-    "N4103": Entry("warning", "A computed rotary axis turns back over the end of its range."),
-    "N4104": Entry("note", "The move that brings the tool nearest to its singular direction."),
-    # Tables of poses, our own
-    "N4201": Entry("error", "A table of poses cannot be read."),
-    "N4202": Entry("warning", "A table of poses lacks a column or has one that is not used."),
 }
 # fmt: on
