@@ -9,18 +9,16 @@ gives the command the options `program`, those of `MachineOptions`, and `format`
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
-from functools import wraps
+from functools import cache, wraps
 from typing import Any, get_type_hints
 
 
 def with_groups(command: Callable[..., None]) -> Callable[..., None]:
     """The command with the fields of each group in place of the parameter of its type."""
     parameters = inspect.signature(command, eval_str=True).parameters.values()
-    groups: dict[str, Any] = {
-        p.name: p.annotation for p in parameters if is_dataclass(p.annotation)
-    }
+    groups = {p.name: p.annotation for p in parameters if _is_group(p.annotation)}
 
     @wraps(command)
     def ungrouped(**values: Any) -> None:
@@ -33,13 +31,21 @@ def with_groups(command: Callable[..., None]) -> Callable[..., None]:
     return ungrouped
 
 
-def _options_of(parameter: inspect.Parameter) -> Iterator[inspect.Parameter]:
+def _is_group(annotation: object) -> bool:
+    return is_dataclass(annotation)
+
+
+def _options_of(parameter: inspect.Parameter) -> tuple[inspect.Parameter, ...]:
     """The parameter itself, or one for each field where its type is a group."""
-    if not is_dataclass(group := parameter.annotation):
-        yield parameter.replace(kind=parameter.KEYWORD_ONLY)
-        return
-    types = get_type_hints(group, include_extras=True)
-    for field in fields(group):
-        yield inspect.Parameter(
-            field.name, parameter.KEYWORD_ONLY, default=field.default, annotation=types[field.name]
-        )
+    if _is_group(parameter.annotation):
+        return _fields_of(parameter.annotation)
+    return (parameter.replace(kind=parameter.KEYWORD_ONLY),)
+
+
+@cache
+def _fields_of(group: type[Any]) -> tuple[inspect.Parameter, ...]:
+    types, kind = get_type_hints(group, include_extras=True), inspect.Parameter.KEYWORD_ONLY
+    return tuple(
+        inspect.Parameter(field.name, kind, default=field.default, annotation=types[field.name])
+        for field in fields(group)
+    )
