@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -64,7 +65,7 @@ class Contour:
     def apply(self, values: ArrayLike) -> Array:
         """Contour values (..., n) of programmed values (..., n), themselves without a step."""
         result = np.asarray(values, dtype=float)
-        for step in self.steps():
+        for step in self.steps:
             result = step.apply(result)
         return result
 
@@ -75,8 +76,12 @@ class Contour:
             result = self.turn.apply(result, inverse=True)
         return result / self.factors(result.shape[-1])
 
-    def steps(self) -> Iterator[Step]:
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
         """What acts, in its order: scale, turn, mirror."""
+        return tuple(self._steps())
+
+    def _steps(self) -> Iterator[Step]:
         if any(f != 1.0 for f in self.scale.values()):
             yield Step("scale", self.scale_origin, lambda x: x * self.factors(x.shape[-1]))
         if self.turn is not None:

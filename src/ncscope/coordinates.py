@@ -278,17 +278,19 @@ class Coordinates:
         return np.sum([self._total(level) for level in self.levels], axis=0)
 
     @cached_property
-    def _to_mcs(self) -> tuple[Array, Array]:
+    def _to_mcs(self) -> tuple[Array | None, Array]:
         return self._all_columns(self.mcs_frame, self._offset_total)
 
     @cached_property
-    def _from_mcs(self) -> tuple[Array, Array]:
+    def _from_mcs(self) -> tuple[Array | None, Array]:
         return self._all_columns(self.mcs_frame.inverse, -self._offset_total)
 
-    def _all_columns(self, frame: Frame, total: Array) -> tuple[Array, Array]:
-        """Rotation of the main axes, and shift of all: of the others by their offsets."""
+    def _all_columns(self, frame: Frame, total: Array) -> tuple[Array | None, Array]:
+        """Rotation of the main axes or None, and shift of all: of the others by their offsets."""
         n = min(3, self.axis_count)
-        return frame.rotation[:n, :n], np.append(frame.shift[:n], total[3:])
+        rotation, shift = frame.rotation[:n, :n], total.copy()
+        shift[:n] = frame.shift[:n]
+        return None if (rotation == _NOT_TURNED[:n, :n]).all() else rotation, shift
 
     @property
     def _turn(self) -> Array | None:
@@ -334,7 +336,7 @@ class Coordinates:
         n = self.axis_count
         if self.program_step is not None:
             yield "#TRAFO PCS", self.program_step.origin, self._mapped
-        yield from self.contour.steps()
+        yield from self.contour.steps
         for k in range(len(self.levels) - 1, -1, -1):
             level = self.levels[k]
             for kind, offset in level.offsets:
@@ -352,6 +354,9 @@ class Coordinates:
             yield self.manual.name, self.manual.origin, _adder(self._jogged)
         if self.modulo.ranges:
             yield "modulo", None, self.modulo.wrap
+
+
+_NOT_TURNED = np.eye(3)
 
 
 def _main_axes(values: Array) -> Array:

@@ -133,14 +133,14 @@ def axes_in_plane(direction: ArrayLike, kind: str, plane: str) -> Array:
     return np.column_stack([np.cross(-first, z), -first, z])
 
 
-def transformed(points: ArrayLike, rotation: Array, shift: Array) -> Array:
+def transformed(points: ArrayLike, rotation: Array | None, shift: Array) -> Array:
     """rotation @ point + shift for points (..., n), a new array.
 
-    rotation: (k, k) with k <= n; columns beyond it are shifted only. shift: (n,). Summed in one
-    order, so that one row and a million agree to the last bit.
+    rotation: (k, k) with k <= n; columns beyond it are shifted only. None turns nothing. shift:
+    (n,). Summed in one order, so that one row and a million agree to the last bit.
     """
     values = np.asarray(points, dtype=float)
-    if (rotation == np.eye(len(rotation))).all():
+    if rotation is None:
         return values + shift
     rows = np.require(values, requirements=["C", "W"]).reshape(-1, values.shape[-1])
     result = np.empty(values.shape)

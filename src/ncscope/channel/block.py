@@ -6,7 +6,7 @@ error the state is as before the block.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ncscope.channel import calls, macros, modulo, radius_compensation, tools
 from ncscope.channel.commands import COMMANDS, LAST, point_to_point
@@ -16,7 +16,7 @@ from ncscope.channel.commands.machine_system import refuse_inside
 from ncscope.channel.draft import BlockError, Draft, Message
 from ncscope.channel.evaluation import evaluate_number, write_variable
 from ncscope.channel.gfunctions import GFUNCTIONS
-from ncscope.channel.rules import RULES, reject_unused
+from ncscope.channel.rules import awake, reject_unused
 from ncscope.channel.state import CallRequest, Return, State
 from ncscope.channel.words import Words, collect_axes, cycle_letter, refuse_path_condition
 from ncscope.diagnostics import Diagnostic, diagnostic
@@ -53,7 +53,7 @@ class Step:
 
 def execute(machine: Machine, state: State, block: tree.Block) -> Step:
     """The step that a block makes."""
-    draft = Draft(machine, state, block.span.place)
+    draft = Draft(machine, state, block.span)
     try:
         _execute(draft, block)
     except BlockError as error:
@@ -90,7 +90,7 @@ def _execute(draft: Draft, block: tree.Block) -> None:
     # 1. Block number; what is not supported is refused by name.
     number = _block_number(draft, block)
     if number != draft.state.block:
-        draft.state = replace(draft.state, block=number)
+        draft.state = draft.state.changed(block=number)
     _refuse_axis_commands(draft, block)
     # 2. # commands and declarations.
     for declaration in block.declarations:
@@ -102,7 +102,7 @@ def _execute(draft: Draft, block: tree.Block) -> None:
     words = Words()
     _collect(draft, words, block.words)
     # 4. Modal functions, 5. offsets, 6. tool, feed, 7. motion, 8. program end.
-    for rule in RULES:
+    for rule in awake(draft, words):
         rule(draft, words)
     for command in block.commands:
         if command.name in LAST:

@@ -85,7 +85,7 @@ def _cycle(draft: Draft, call: tree.Call) -> None:
     if running.in_modal:
         draft.fail("21381", call.span, "a modal cycle cannot call a modal cycle")
     held = replace(draft.calls[-1], home=running.file)
-    draft.state = replace(draft.state, running=replace(running, modal=held))
+    draft.state = draft.state.changed(running=replace(running, modal=held))
 
 
 def _parameter(draft: Draft, item: tree.Item, parameters: dict[int, float | str]) -> None:

@@ -34,7 +34,7 @@ def turn_on(draft: Draft, turn: Turn, span: Span) -> None:
     if draft.state.suspended is not None:
         what = "a contour rotation inside #MCS is not modelled"
         draft.fail("N2022", span, what, "switch it on before #MCS ON or after #MCS OFF")
-    draft.state = replace(draft.state, turn=turn)
+    draft.state = draft.state.changed(turn=turn)
     set_contour(draft, replace(draft.state.coordinates.contour, turn=turn))
 
 
@@ -77,7 +77,7 @@ def _drop_turn(draft: Draft) -> bool:
     set_contour(draft, contour.without_turn())
     if suspended is not None:
         waiting = replace(suspended.coordinates, contour=held.without_turn())
-        draft.state = replace(draft.state, suspended=replace(suspended, coordinates=waiting))
+        draft.state = draft.state.changed(suspended=replace(suspended, coordinates=waiting))
     return held.turn is not None
 
 

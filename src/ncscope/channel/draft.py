@@ -6,9 +6,10 @@ was before the block.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
 import numpy as np
@@ -49,12 +50,13 @@ class BlockError(Exception):
 class Draft:
     """The working copy of the state during one block.
 
-    calls: the subprograms that run behind it, the implicit ones (G80, M6) first.
+    at: the block, or in words what stands for one. calls: the subprograms that run behind it, the
+    implicit ones (G80, M6) first.
     """
 
     machine: Machine
     state: State
-    place: str = ""
+    at: Span | str
     diagnostics: list[Diagnostic] = field(default_factory=list)
     messages: list[Message] = field(default_factory=list)
     moves: list[Move] = field(default_factory=list)
@@ -64,6 +66,11 @@ class Draft:
     returned: Return | None = None
     inserts: dict[str, tuple[float, Span]] = field(default_factory=dict)
     corner: Corner | None = None
+
+    @property
+    def place(self) -> str:
+        """The block as origins name it."""
+        return self.at if isinstance(self.at, str) else self.at.place
 
     def fail(self, id: str, span: Span, message: str, hint: str = "", **more: Any) -> NoReturn:
         raise BlockError(diagnostic(id, span, message, hint, **more))
@@ -116,8 +123,10 @@ class Draft:
 
     def modal(self, **changes: Any) -> None:
         modes = self.state.modal
-        if any(getattr(modes, name) != value for name, value in changes.items()):
-            self.state = replace(self.state, modal=replace(modes, **changes))
+        for name, value in changes.items():
+            if getattr(modes, name) != value:
+                self.state = self.state.changed(modal=modes.changed(**changes))
+                return
 
     @property
     def modes(self) -> Modal:
@@ -163,9 +172,9 @@ class Draft:
             if direction is not None and error.id in ("292014", "292007"):
                 span = direction
             self.fail(error.id, span, error.message, error.hint)
-        if not np.all(np.isfinite(axes)):
+        if not all(map(math.isfinite, axes.tolist())):
             self.fail("21883", span, "the axis position is too large to be computed")
-        self.state = replace(state, position=Position(axes, shown))
+        self.state = state.changed(position=Position(axes, shown))
         modes = state.modal
         self.moves.append(
             Move(

@@ -59,5 +59,5 @@ def software_limits(draft: Draft, words: Words) -> None:
         limits = (limit, high) if number == 98 else (low, limit)
         axes[axis] = replace(axes[axis], limits=limits)
     if words.axes:
-        draft.state = replace(draft.state, axes=tuple(axes))
+        draft.state = draft.state.changed(axes=tuple(axes))
     words.axes.clear()

@@ -115,7 +115,7 @@ def write_variable(draft: Draft, word: tree.Assignment) -> None:
     if isinstance(node, tree.CycleParameter):
         held = {**draft.cycle_parameters(node.span), numbers[0]: value}
         running = replace(draft.state.running, parameters=held)
-        draft.state = replace(draft.state, running=running)
+        draft.state = draft.state.changed(running=running)
         return None
     if user_variables.is_user(node):
         return user_variables.write(draft, node, numbers, value)

@@ -104,7 +104,7 @@ class Walker:
     def step(self, state: State) -> tuple[State, tuple[Diagnostic, ...]]:
         """The jump of the block whose words have been executed."""
         entry = self.layout.entries[self.at]
-        draft = Draft(self.machine, state, entry.span.place if entry.keyword else "")
+        draft = Draft(self.machine, state, entry.span)
         try:
             if entry.keyword:
                 self.at = self._target(draft, entry)

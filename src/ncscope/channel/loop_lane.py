@@ -252,4 +252,4 @@ def _state_after(state: State, loop: LoopState, program: Array, axes: Array) -> 
         state.modal, motion=MOTIONS[loop.motion], absolute=loop.absolute, feed=loop.feed
     )
     position = Position(*reversed(_place(state, program, axes, len(program))))
-    return replace(state, variables=variables, modal=modal, position=position, block=loop.block)
+    return state.changed(variables=variables, modal=modal, position=position, block=loop.block)

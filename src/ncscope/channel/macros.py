@@ -29,7 +29,7 @@ def define(draft: Draft, word: tree.MacroDefinition) -> None:
         draft.fail("20619", word.span, "a macro needs a name")
     _check_length(draft, word.name, word.span)
     macros = with_value(draft.state.macros, word.name, word.text)
-    draft.state = replace(draft.state, macros=macros)
+    draft.state = draft.state.changed(macros=macros)
 
 
 def _check_length(draft: Draft, name: str, span: Span) -> None:

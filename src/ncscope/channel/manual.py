@@ -70,7 +70,7 @@ def _increments(
         count = len(given.rows)
         what = f"{given.name} has no row for this G{number}; it has {count} rows"
         draft.fail("N2042", span, what, "add a row with the increments, or an empty one")
-    draft.state = replace(draft.state, manual=given.taken())
+    draft.state = draft.state.changed(manual=given.taken())
     names = {draft.state.axis_names[axis]: axis for axis in axes}
     for name, cell in row.cells.items():
         if name not in names and row.values[name] != 0.0:
@@ -113,7 +113,7 @@ def _fetch(draft: Draft, manual: Offset | None) -> None:
     """V.A.MANUAL_OFFSETS reads this from now on."""
     values = manual.values if manual is not None else (0.0,) * len(draft.state.axes)
     fetched = dict(zip(draft.state.axis_names, values, strict=True))
-    draft.state = replace(draft.state, manual_offsets=fetched)
+    draft.state = draft.state.changed(manual_offsets=fetched)
 
 
 def home(draft: Draft, words: Words) -> None:

@@ -95,7 +95,7 @@ def record(draft: Draft, axes: Iterable[int], run: Run) -> None:
 
 def _go_back(draft: Draft, position: Position) -> None:
     draft.moves.pop()
-    draft.state = replace(draft.state, position=position)
+    draft.state = draft.state.changed(position=position)
 
 
 def _answer(draft: Draft, names: Mapping[int, str], span: Span) -> GivenRow:
@@ -107,7 +107,7 @@ def _answer(draft: Draft, names: Mapping[int, str], span: Span) -> GivenRow:
         count = len(given.rows)
         what = f"{given.name} has no row for this measuring run; it has {count} rows"
         draft.fail("N2042", span, what, "add a row with the positions of the contact")
-    draft.state = replace(draft.state, probe=given.taken())
+    draft.state = draft.state.changed(probe=given.taken())
     for name, cell in row.cells.items():
         if name not in names.values():
             what = f"{cell.place} has a value for axis {name}, which this block does not measure"
@@ -125,7 +125,7 @@ def _no_signal(draft: Draft, names: Mapping[int, str], span: Span) -> None:
     if measuring.type == SINGLE or measuring.must_answer:
         draft.fail("N2041", span, "the probe gave no signal in this measuring run")
     kept = {n: m for n, m in draft.state.measured.items() if n not in names.values()}
-    draft.state = replace(draft.state, measured=kept)
+    draft.state = draft.state.changed(measured=kept)
 
 
 def _is_plain(state: State) -> bool:
@@ -155,7 +155,7 @@ def _remember(draft: Draft, names: Mapping[int, str], contact: Position, target:
         )
         for axis, name in names.items()
     }
-    draft.state = replace(draft.state, measured={**draft.state.measured, **new})
+    draft.state = draft.state.changed(measured={**draft.state.measured, **new})
 
 
 def offset(draft: Draft, words: Words) -> None:

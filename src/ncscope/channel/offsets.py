@@ -29,7 +29,7 @@ def select_zero(state: State, index: int, place: str) -> State:
     record = state.zero_offsets.record(index)
     none = index == 0 and not state.zero_offsets.group_0_is_offset
     offset = None if none else _offset_from_record(state, zero_name(index), record, place)
-    return replace(_with_offset(state, "zero", offset), zero_index=index)
+    return _with_offset(state, "zero", offset).changed(zero_index=index)
 
 
 def select_clamp(state: State, index: int, record: OffsetRecord) -> State:
@@ -37,7 +37,7 @@ def select_clamp(state: State, index: int, record: OffsetRecord) -> State:
     offset = _offset_from_record(state, "clamp", record, f"clamp position {index}")
     level = state.coordinates.levels[0].with_offset("clamp", offset)
     coordinates = replace(state.coordinates, levels=(level, *state.coordinates.levels[1:]))
-    return replace(state.with_coordinates(coordinates), clamp_index=index)
+    return state.with_coordinates(coordinates).changed(clamp_index=index)
 
 
 def set_offsets(
@@ -65,7 +65,7 @@ def without_presets(state: State, axes: frozenset[int]) -> State:
     """G74: the position preset of these axes is gone in every level, also in those that wait."""
     if state.suspended is not None:
         waiting = _cleared(state.suspended.coordinates, axes)
-        state = replace(state, suspended=replace(state.suspended, coordinates=waiting))
+        state = state.changed(suspended=replace(state.suspended, coordinates=waiting))
     cleared = _cleared(state.coordinates, axes)
     return state if cleared is state.coordinates else state.with_coordinates(cleared)
 
@@ -107,7 +107,7 @@ def select_tool(state: State, index: int, record: Tool, place: str) -> State:
     """The tool data record `index` (D word); 0 is no tool."""
     suspended = state.suspended
     if suspended is not None and not suspended.ex_tool:
-        state = replace(state, suspended=replace(suspended, tool_acts=True))
+        state = state.changed(suspended=replace(suspended, tool_acts=True))
     tool = replace(state.tool, record_index=index, record=record, selected_at=place)
     return with_tool(state, tool)
 
@@ -117,7 +117,7 @@ def with_tool(state: State, tool: SelectedTool) -> State:
 
     Inside #MCS it acts only where a D word stood there.
     """
-    state = replace(state, tool=tool)
+    state = state.changed(tool=tool)
     if state.suspended is not None and not state.suspended.tool_acts:
         return state
     coordinates = replace(state.coordinates, tool=active_tool(state))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 
 from ncscope.channel import (
     calls,
@@ -112,7 +113,7 @@ def _mask_group(draft: Draft, words: Words) -> None:
             draft.fail("N1005", span, what)
         (inactive.add if value else inactive.discard)(axis)
     groups = {**table.groups, index: replace(record, inactive=frozenset(inactive))}
-    draft.state = replace(draft.state, zero_offsets=replace(table, groups=groups))
+    draft.state = draft.state.changed(zero_offsets=replace(table, groups=groups))
     words.axes.clear()
 
 
@@ -143,7 +144,7 @@ def _tool(draft: Draft, words: Words) -> None:
     record = words.addresses.pop("D", None)
     if place is not None:
         tool = replace(draft.state.tool, place=round(place[0]))
-        draft.state = replace(draft.state, tool=tool)
+        draft.state = draft.state.changed(tool=tool)
         if draft.machine.settings.tool_with_t and record is None:
             record = place
     if record is not None:
@@ -197,28 +198,54 @@ def reject_unused(draft: Draft, words: Words) -> None:
         draft.fail("N2003", span, f"word {letter} is not used by any command in this block")
 
 
-RULES: tuple[Callable[[Draft, Words], None], ...] = (
-    _refuse_g,
-    dwell.dwell,
-    radius_compensation.select,
-    _modal,
-    dwell.software_limits,
-    contour.mirror,
-    diameter.select,
-    contour.rotation,
-    circle.modes,
-    _zero_offset,
-    _mask_group,
-    _reference_point,
-    measuring.offset,
-    _tool,
-    _technology,
-    manual.jog,
-    manual.home,
-    corner.stored_size,
-    travel.motion,
-    corner.beside_motion,
-    calls.implicit,
-    _end,
+Rule = Callable[[Draft, Words], None]
+
+AXIS, MISCELLANEOUS, INSERT = "an axis word", "an M word", "#CHR and its kin"
+"""What wakes a rule besides the numbers of G functions and the letters of addresses."""
+_G = frozenset(GFUNCTIONS)
+_ZERO = frozenset(number for number, row in GFUNCTIONS.items() if row.group == "zero")
+_SPOKEN_OF = frozenset(n for n, row in GFUNCTIONS.items() if row.effect in ("refused", "quiet"))
+
+RULES: tuple[tuple[Rule, frozenset[int | str]], ...] = (
+    (_refuse_g, _SPOKEN_OF | {151}),
+    (dwell.dwell, frozenset((4,))),
+    (radius_compensation.select, frozenset((40, 41, 42, 17, 18, 19))),
+    (_modal, _G),
+    (dwell.software_limits, frozenset((98, 99))),
+    (contour.mirror, frozenset((20, 21, 22, 23, 351))),
+    (diameter.select, _G),
+    (contour.rotation, frozenset((68, 69))),
+    (circle.modes, frozenset((161, 162, 163, 164, 165, "R"))),
+    (_zero_offset, _ZERO),
+    (_mask_group, frozenset((160,))),
+    (_reference_point, frozenset((92,))),
+    (measuring.offset, frozenset((101, 102, 106))),
+    (_tool, frozenset("TD")),
+    (_technology, frozenset(("F", "S", "E", "H", MISCELLANEOUS))),
+    (manual.jog, frozenset((200, 201, 202))),
+    (manual.home, frozenset((74,))),
+    (corner.stored_size, frozenset((301, 302))),
+    (travel.motion, frozenset((100, AXIS, "I", "J", "K", "R"))),
+    (corner.beside_motion, frozenset((INSERT,))),
+    (calls.implicit, calls.IMPLICIT | {MISCELLANEOUS}),
+    (_end, frozenset((MISCELLANEOUS,))),
 )
-"""The rules in their order of effect; each takes its words and leaves the rest."""
+"""The rules in their order of effect, each with the words that wake it; it takes those that it
+owns and leaves the rest."""
+
+
+def awake(draft: Draft, words: Words) -> tuple[Rule, ...]:
+    """The rules that have something to do in a block, in their order."""
+    kinds: list[int | str] = [*words.gfunctions, *words.addresses]
+    if words.axes:
+        kinds.append(AXIS)
+    if words.mfunctions:
+        kinds.append(MISCELLANEOUS)
+    if draft.inserts:
+        kinds.append(INSERT)
+    return _woken_by(frozenset(kinds))
+
+
+@lru_cache(maxsize=1000)
+def _woken_by(kinds: frozenset[int | str]) -> tuple[Rule, ...]:
+    return tuple(rule for rule, wakes in RULES if wakes & kinds)

@@ -48,7 +48,7 @@ def activate(draft: Draft, span: Span, ids: tuple[int, int]) -> None:
         rapid_straight=settings.rapid_straight,
         turns_in_plane=settings.direction_path >= 0,
     )
-    draft.state = replace(draft.state, kinematics=replace(held, active=ids))
+    draft.state = draft.state.changed(kinematics=replace(held, active=ids))
     draft.set_coordinates(replace(draft.state.coordinates, kinematics=active), span)
 
 

@@ -93,7 +93,7 @@ def with_stack(machine: Machine, state: State) -> tuple[State, tuple[Diagnostic,
     start = machine.stack_at_start
     if start is None:
         return state, ()
-    draft = Draft(machine, state, start.span.place)
+    draft = Draft(machine, state, start.span)
     try:
         activate_at_start(draft, start.span, machine.stacks[start.name])
     except BlockError as error:

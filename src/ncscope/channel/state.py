@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from typing import Any, Self
 
 from ncscope.channel.given import GivenRows
 from ncscope.contour import Turn
@@ -19,8 +20,26 @@ INCH = 25.4
 """Millimetres of an inch (G70)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Modal:
+class Changing:
+    """A frozen dataclass of many fields, of which every block makes copies.
+
+    `dataclasses.replace` gives each field to `__init__` again; here the dict of the fields is
+    copied. So what derives from this has neither slots, nor `__post_init__`, nor cached properties.
+    """
+
+    def changed(self, **changes: Any) -> Self:
+        """A copy with other values of some fields. Raises TypeError for a name that is no field."""
+        values = self.__dict__.copy()
+        values.update(changes)
+        if len(values) != len(self.__dict__):
+            raise TypeError(f"no field of {type(self).__name__}: {changes.keys() - self.__dict__}")
+        copy = object.__new__(type(self))
+        object.__setattr__(copy, "__dict__", values)
+        return copy
+
+
+@dataclass(frozen=True)
+class Modal(Changing):
     """The modal G functions that change what a word means.
 
     motion: one of `motion.MOTIONS` (group 0). plane: 17, 18 or 19. absolute: G90. inch: G70.
@@ -252,8 +271,8 @@ class Running:
     retain: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+@dataclass(frozen=True)
+class State(Changing):
     """Everything that a block may read or change.
 
     axes: the channel configuration. tools: the tool table with what the program wrote into it.
@@ -335,4 +354,4 @@ class State:
             near = self.position.program if both else None
             program = coordinates.to_program(self.position.axes, near)
         position = Position(self.position.axes, program)
-        return replace(self, coordinates=coordinates, position=position)
+        return self.changed(coordinates=coordinates, position=position)

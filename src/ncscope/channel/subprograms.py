@@ -63,7 +63,7 @@ def call(
     walker: Walker, state: State, requests: tuple[CallRequest, ...], then: Return | str = ""
 ) -> Passage:
     """Enters the first of the subprograms; the others follow when it returns."""
-    draft = Draft(walker.machine, state, requests[0].span.place)
+    draft = Draft(walker.machine, state, requests[0].span)
     try:
         _enter(walker, draft, requests[0], requests[1:], then, requests[0].repeat - 1)
     except BlockError as error:
@@ -74,7 +74,7 @@ def call(
 def leave(walker: Walker, state: State, order: Return | None = None) -> Passage:
     """Back to the line behind the call, or as far as the brackets of M17 say."""
     span = order.span if order is not None else walker.calls[-1].request.span
-    draft = Draft(walker.machine, state, span.place)
+    draft = Draft(walker.machine, state, span)
     draft.diagnostics.extend(walker.open_warnings())
     try:
         if order is not None and (order.levels != 1 or order.label):
@@ -116,7 +116,7 @@ def _pop(walker: Walker, draft: Draft, span: Span) -> Frame:
     walker.layout, walker.level, walker.at = frame.layout, frame.level, frame.at
     inner, outer = draft.state.running, frame.before.running
     state = _without_level(draft.state, inner.level)
-    draft.state = replace(state, running=replace(outer, modal=inner.modal))
+    draft.state = state.changed(running=replace(outer, modal=inner.modal))
     keeps = inner.retain or draft.machine.settings.cycle_changes_stay
     if frame.request.parameters is not None and not keeps:
         _restore(draft, frame.before, span)
@@ -174,7 +174,7 @@ def _without_level(state: State, level: int) -> State:
             del variables[key]
         else:
             variables[key] = outer
-    return replace(state, variables=variables)
+    return state.changed(variables=variables)
 
 
 # --- entering ----------------------------------------------------------------------------------
@@ -202,7 +202,7 @@ def _enter(
         old.modal,
         old.in_modal or bool(request.modal),
     )
-    draft.state = replace(draft.state, running=running)
+    draft.state = draft.state.changed(running=running)
     walker.layout, walker.level, walker.at = aim, level, at
 
 

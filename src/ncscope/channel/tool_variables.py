@@ -141,7 +141,7 @@ def _of_table(field: Field) -> Row:
         old = draft.state.tools.get(index, Tool(valid=False))
         assert field.write is not None
         record = replace(field.write(draft, ref, old, value), origin=draft.place)
-        draft.state = replace(draft.state, tools={**draft.state.tools, index: record})
+        draft.state = draft.state.changed(tools={**draft.state.tools, index: record})
 
     read_only = field.access == "read"
     return Row(

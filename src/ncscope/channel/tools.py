@@ -38,7 +38,7 @@ def select(draft: Draft, index: int, span: Span, together: bool = False) -> None
     program = before.position.program
     if together:
         position = replace(draft.state.position, program=program)
-        draft.state = replace(draft.state, position=position)
+        draft.state = draft.state.changed(position=position)
     else:
         draft.move_to(program, span)
 
@@ -93,7 +93,7 @@ def _check_kinematics(draft: Draft, index: int, tool: Tool, span: Span) -> None:
             f"but kinematics {held.ids[0]} is active",
         )
     ids = (tool.kinematic_id, held.ids[1])
-    draft.state = replace(draft.state, kinematics=replace(held, ids=ids))
+    draft.state = draft.state.changed(kinematics=replace(held, ids=ids))
 
 
 def renew_kinematics(draft: Draft, span: Span) -> None:

@@ -72,7 +72,7 @@ def _ignored(draft: Draft, centre: dict[int, circle.Word]) -> None:
 def _target(draft: Draft, words: Words) -> tuple[Array, Array | None]:
     """Programmed values (n,) at the end of the block, and where the way there leads without
     wrapping; None where that is the same."""
-    way = np.array(draft.state.position.program)
+    way = draft.state.position.program.copy()
     for axis, (value, span) in words.axes.items():
         turned = modulo.travel(draft, words, axis)
         length = diameter.radius(draft, axis, value, span)
@@ -81,7 +81,7 @@ def _target(draft: Draft, words: Words) -> tuple[Array, Array | None]:
         else:
             way[axis] = length if draft.modes.absolute else way[axis] + length
     program = draft.state.coordinates.shown(way)
-    return program, None if np.array_equal(program, way) else way
+    return program, None if program is way or np.array_equal(program, way) else way
 
 
 def _check_feed(draft: Draft, span: Span) -> None:

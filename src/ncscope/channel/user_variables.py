@@ -187,7 +187,7 @@ def delete(draft: Draft, node: Node, numbers: tuple[int, ...]) -> None:
     kept = without(draft.state.variables, key)
     if stored.outer is not None:
         kept = with_value(kept, key, stored.outer)
-    draft.state = replace(draft.state, variables=kept)
+    draft.state = draft.state.changed(variables=kept)
 
 
 def size(
@@ -215,7 +215,7 @@ def size(
 
 def _store(draft: Draft, key: str, stored: Stored) -> None:
     variables = with_value(draft.state.variables, key, stored)
-    draft.state = replace(draft.state, variables=variables)
+    draft.state = draft.state.changed(variables=variables)
 
 
 def _resolve(draft: Draft, node: Node, numbers: tuple[int, ...]) -> tuple[str, tuple[int, ...]]:

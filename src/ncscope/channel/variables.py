@@ -49,7 +49,7 @@ def _write_kin(draft: Draft, ref: Reference, value: float) -> None:
     held = draft.state.kinematics
     changed = parameters.with_value(index, value, ref.span)
     kinematics = replace(held, parameters={**held.parameters, parameters.id: changed})
-    draft.state = replace(draft.state, kinematics=kinematics)
+    draft.state = draft.state.changed(kinematics=kinematics)
 
 
 # --- zero offsets ------------------------------------------------------------------------------
@@ -80,7 +80,7 @@ def store_group(draft: Draft, index: int, record: OffsetRecord) -> None:
     """Puts a group into the zero offset table; what is active does not change."""
     table = draft.state.zero_offsets
     groups = {**table.groups, index: record}
-    draft.state = replace(draft.state, zero_offsets=replace(table, groups=groups))
+    draft.state = draft.state.changed(zero_offsets=replace(table, groups=groups))
 
 
 def active_zero(draft: Draft) -> Offset:
@@ -103,7 +103,7 @@ def _write_np_active(draft: Draft, ref: Reference, value: float) -> None:
 
 def _write_np_default(draft: Draft, ref: Reference, value: float) -> None:
     table = replace(draft.state.zero_offsets, default_index=round(value))
-    draft.state = replace(draft.state, zero_offsets=table)
+    draft.state = draft.state.changed(zero_offsets=table)
 
 
 # --- axis values -------------------------------------------------------------------------------

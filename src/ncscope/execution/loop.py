@@ -68,7 +68,7 @@ class Loop:
         self.progress, self.sink, self.reached = progress, sink, 0
         state = start_state(machine, options.clamp, options.probe, options.external, options.manual)
         state, found = with_stack(machine, state)
-        self.state = replace(state, running=Running(file=source.name))
+        self.state = state.changed(running=Running(file=source.name))
         self.stretches: list[Stretch] = []
         self.taken = 0
         self.recorder, self.log = Recorder(source, options.sample, self._take), _Log()

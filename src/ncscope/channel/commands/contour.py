@@ -60,7 +60,7 @@ def scale(draft: Draft, command: tree.HashCommand) -> None:
         if value <= 0.0:
             draft.fail("N2020", span, f"a scale factor must be greater than 0, not {value:g}")
     new = {axis: value for axis, (value, _) in factors.items()}
-    draft.state = replace(draft.state, scale_factors={**draft.state.scale_factors, **new})
+    draft.state = draft.state.changed(scale_factors={**draft.state.scale_factors, **new})
 
 
 def scale_on(draft: Draft, command: tree.HashCommand) -> None:

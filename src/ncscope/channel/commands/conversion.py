@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
@@ -160,7 +159,7 @@ def _both(draft: Draft, command: tree.HashCommand) -> tuple[Coordinates, Coordin
         active = "a transformation" if coordinates.kinematics else coordinates.top.name
         what = f"#{command.name} is not allowed while {active} is active"
         draft.fail("21236", command.span, what, "switch all off first (#TRAFO OFF, #CS OFF ALL)")
-    trial = Draft(draft.machine, draft.state, draft.place)
+    trial = Draft(draft.machine, draft.state, draft.at)
     transformation.on(trial, command)
     return coordinates, trial.state.coordinates
 
@@ -240,7 +239,7 @@ def _keep(draft: Draft, variable: str, values: Array) -> None:
         (variable, name): float(value)
         for name, value in zip(draft.state.axis_names, values, strict=True)
     }
-    draft.state = replace(draft.state, converted={**draft.state.converted, **new})
+    draft.state = draft.state.changed(converted={**draft.state.converted, **new})
 
 
 COMMANDS = {"TRANSFORM": transform, "WCS TO MCS": wcs_to_mcs, "MCS TO WCS": mcs_to_wcs}

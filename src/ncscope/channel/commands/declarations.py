@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ncscope.channel import user_variables
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import evaluate_number, evaluate_value, indices
@@ -45,7 +43,7 @@ def delete(draft: Draft, command: tree.HashCommand) -> None:
 
 def clear_macros(draft: Draft, command: tree.HashCommand) -> None:
     """#INIT MACRO TAB: the macros of the channel list stay."""
-    draft.state = replace(draft.state, macros=draft.machine.settings.macros)
+    draft.state = draft.state.changed(macros=draft.machine.settings.macros)
 
 
 COMMANDS = {

@@ -7,7 +7,6 @@ Counts from the next absolute word, like a new tool. A tool with an orientation 
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 from ncscope.channel import offsets
 from ncscope.channel.draft import Draft
@@ -39,7 +38,7 @@ def follow_plane(draft: Draft, command: tree.HashCommand) -> None:
 
 
 def _take(draft: Draft, length_axis: LengthAxis | None) -> None:
-    draft.state = replace(draft.state, length_axis=length_axis)
+    draft.state = draft.state.changed(length_axis=length_axis)
     draft.state = offsets.with_tool(draft.state, draft.state.tool)
 
 

@@ -43,7 +43,7 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
         draft.state = offsets.with_tool(draft.state, tool)
         return
     step = ActiveLengthCorrection(_along_the_tool(draft, command, id, length), draft.place)
-    draft.state = replace(draft.state, tool=replace(tool, correction_at=draft.place))
+    draft.state = draft.state.changed(tool=replace(tool, correction_at=draft.place))
     draft.set_coordinates(replace(draft.state.coordinates, length_step=step), command.span)
 
 

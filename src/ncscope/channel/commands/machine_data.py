@@ -117,7 +117,7 @@ def _write(draft: Draft, item: tree.Item, index: int, key: str, text: str) -> No
     axes[index] = MODELLED[key](axes[index], value)
     if (limits := axes[index].limits) is not None and limits[0] > limits[1]:
         draft.fail("N1005", item.span, f"the software limits of {name} exclude each other")
-    draft.state = replace(draft.state, axes=tuple(axes))
+    draft.state = draft.state.changed(axes=tuple(axes))
 
 
 def _number(text: str) -> float | None:

@@ -40,7 +40,7 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
         return
     held = state.coordinates
     suspended = Suspended(held, state.zero_index, ex_tool)
-    draft.state = replace(state, suspended=suspended, zero_index=0)
+    draft.state = state.changed(suspended=suspended, zero_index=0)
     bare = Coordinates(
         held.axis_count,
         contour=held.contour.without_turn(),
@@ -59,7 +59,7 @@ def off(draft: Draft, command: tree.HashCommand) -> None:
         return
     contour = replace(state.coordinates.contour, turn=held.coordinates.contour.turn)
     tool = offsets.active_tool(state)
-    draft.state = replace(state, suspended=None, zero_index=held.zero_index)
+    draft.state = state.changed(suspended=None, zero_index=held.zero_index)
     restored = replace(
         held.coordinates, contour=contour, tool=tool, manual=state.coordinates.manual
     )

@@ -24,7 +24,7 @@ def settings(draft: Draft, command: tree.HashCommand) -> None:
         elif item.key == "ERR_NO_SIGNAL" and item.value is not None:
             must = abs(evaluate_number(draft, item.value)) >= 0.5
             held = replace(draft.state.measuring, must_answer=must)
-            draft.state = replace(draft.state, measuring=held)
+            draft.state = draft.state.changed(measuring=held)
         elif item.key == "SIMU_OFFSET":
             hint = "give the contact as a row of --probe"
             draft.warn("N2006", item.span, "SIMU_OFFSET of #MEAS is ignored", hint)
@@ -49,7 +49,7 @@ def default(draft: Draft, command: tree.HashCommand) -> None:
     """#MEAS DEFAULT: as the channel list says."""
     settings = draft.machine.settings
     held = Measuring(settings.measuring_type, settings.probe_must_answer)
-    draft.state = replace(draft.state, measuring=held)
+    draft.state = draft.state.changed(measuring=held)
 
 
 def _set_type(draft: Draft, value: tree.Expression) -> None:
@@ -57,7 +57,7 @@ def _set_type(draft: Draft, value: tree.Expression) -> None:
     if number not in range(1, LAST_TYPE + 1):
         draft.fail("20138", value.span, f"measuring types are 1 to {LAST_TYPE}, not {number:g}")
     held = replace(draft.state.measuring, type=round(number))
-    draft.state = replace(draft.state, measuring=held)
+    draft.state = draft.state.changed(measuring=held)
 
 
 COMMANDS = {"MEAS": settings, "MEAS MODE": mode, "MEAS DEFAULT": default}

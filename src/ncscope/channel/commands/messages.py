@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 from ncscope.channel.draft import Draft, Message
 from ncscope.channel.evaluation import evaluate_value
@@ -80,10 +79,10 @@ def file_name(draft: Draft, command: tree.HashCommand) -> None:
         if not name:
             draft.fail("N1005", item.span, "a file name is missing")
         if called is None:
-            draft.state = replace(draft.state, message_file=name)
+            draft.state = draft.state.changed(message_file=name)
         else:
             files = {**draft.state.called_files, called.group(): name}
-            draft.state = replace(draft.state, called_files=files)
+            draft.state = draft.state.changed(called_files=files)
 
 
 def _text(draft: Draft, command: tree.HashCommand) -> str:

@@ -45,7 +45,7 @@ def add(draft: Draft, command: tree.HashCommand) -> None:
         what = f"the stack has {MAX_SYSTEMS} coordinate systems; there is no place for {name}"
         draft.fail("21234", command.span, what, "take one away first (#CS DEL)")
     system = NamedSystem(name, _frame(draft, command, name), draft.place)
-    draft.state = replace(state, systems=(*state.systems, system))
+    draft.state = state.changed(systems=(*state.systems, system))
 
 
 def select(draft: Draft, command: tree.HashCommand) -> None:
@@ -57,7 +57,7 @@ def select(draft: Draft, command: tree.HashCommand) -> None:
     while draft.state.selected < wanted:
         system = draft.state.systems[draft.state.selected]
         link(draft, command.span, _level(system))
-        draft.state = replace(draft.state, selected=draft.state.selected + 1)
+        draft.state = draft.state.changed(selected=draft.state.selected + 1)
 
 
 def set_definition(draft: Draft, command: tree.HashCommand) -> None:
@@ -161,20 +161,20 @@ def refuse_intermediate(draft: Draft, node: tree.Name | tree.Text) -> NoReturn:
 
 def _drop_top(draft: Draft, command: tree.HashCommand) -> None:
     unlink(draft, command.span, (len(draft.state.coordinates.levels) - 1,))
-    draft.state = replace(draft.state, selected=draft.state.selected - 1)
+    draft.state = draft.state.changed(selected=draft.state.selected - 1)
 
 
 def _delete_top(draft: Draft, command: tree.HashCommand) -> None:
     if draft.state.selected == len(draft.state.systems):
         _drop_top(draft, command)
-    draft.state = replace(draft.state, systems=draft.state.systems[:-1])
+    draft.state = draft.state.changed(systems=draft.state.systems[:-1])
 
 
 def _change(draft: Draft, command: tree.HashCommand, k: int, frame: Frame, origin: str) -> None:
     """Another frame for a system of the stack; the offsets in it and the axes stay."""
     state = draft.state
     system = NamedSystem(state.systems[k].name, frame, origin)
-    draft.state = replace(state, systems=(*state.systems[:k], system, *state.systems[k + 1 :]))
+    draft.state = state.changed(systems=(*state.systems[:k], system, *state.systems[k + 1 :]))
     if k >= state.selected:
         return
     levels = list(state.coordinates.levels)

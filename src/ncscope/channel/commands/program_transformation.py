@@ -55,7 +55,7 @@ def _preselect(draft: Draft, command: tree.HashCommand, id: int) -> None:
         what = "the PCS transformation cannot be changed while it is active"
         draft.fail("22282", command.span, what, "switch it off first (#TRAFO PCS OFF)")
     held = draft.state.kinematics
-    draft.state = replace(draft.state, kinematics=replace(held, program_id=id))
+    draft.state = draft.state.changed(kinematics=replace(held, program_id=id))
 
 
 def _id_in(draft: Draft, command: tree.HashCommand) -> int | None:

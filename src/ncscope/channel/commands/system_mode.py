@@ -28,7 +28,7 @@ def mode_on(draft: Draft, command: tree.HashCommand) -> None:
         mode = replace(mode, fixed=True)
     if "AXES_OFFSETS_LAYER_SPECIFIC" in items:
         mode = replace(mode, per_level=True)
-    draft.state = replace(draft.state, system_mode=mode)
+    draft.state = draft.state.changed(system_mode=mode)
 
 
 def mode_off(draft: Draft, command: tree.HashCommand) -> None:
@@ -42,7 +42,7 @@ def mode_off(draft: Draft, command: tree.HashCommand) -> None:
     if "AXES_OFFSETS_LAYER_SPECIFIC" in items:
         _check_levels(draft, command)
         mode = replace(mode, per_level=False)
-    draft.state = replace(draft.state, system_mode=mode)
+    draft.state = draft.state.changed(system_mode=mode)
 
 
 def _mode_items(draft: Draft, command: tree.HashCommand) -> dict[str, str]:

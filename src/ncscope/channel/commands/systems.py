@@ -6,8 +6,6 @@ Source: definition of #CS; TF5200 coordinate systems and offsets
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ncscope.channel.draft import Draft
 from ncscope.channel.state import SystemDefinition
 from ncscope.channel.systems import FORM, Id, active, frame, identifier, link, unlink, values
@@ -127,7 +125,7 @@ def _store(
     definition = SystemDefinition(kind, id, numbers, draft.place, temporary)
     forget(draft, kind, id)
     definitions = {**draft.state.definitions, (kind, id): definition}
-    draft.state = replace(draft.state, definitions=definitions)
+    draft.state = draft.state.changed(definitions=definitions)
     return definition
 
 
@@ -139,7 +137,7 @@ def _definitions(draft: Draft, kind: str) -> dict[Id, SystemDefinition]:
 def forget(draft: Draft, kind: str, id: Id) -> None:
     """Without the stored definition, if there is one."""
     kept = {key: d for key, d in draft.state.definitions.items() if key != (kind, id)}
-    draft.state = replace(draft.state, definitions=kept)
+    draft.state = draft.state.changed(definitions=kept)
 
 
 def stored(draft: Draft, span: Span, kind: str, id: Id | None) -> SystemDefinition:

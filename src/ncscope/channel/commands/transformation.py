@@ -74,7 +74,7 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
 def off(draft: Draft, command: tree.HashCommand) -> None:
     """#TRAFO OFF: the axes stay where they are."""
     _refuse_point_to_point(draft, command, "21528")
-    draft.state = replace(draft.state, kinematics=replace(draft.state.kinematics, active=(0, 0)))
+    draft.state = draft.state.changed(kinematics=replace(draft.state.kinematics, active=(0, 0)))
     draft.set_coordinates(replace(draft.state.coordinates, kinematics=None), command.span)
 
 
@@ -98,7 +98,7 @@ def _refuse_point_to_point(draft: Draft, command: tree.HashCommand, id: str) -> 
 
 def _preselect(draft: Draft, ids: tuple[int, int]) -> None:
     held = draft.state.kinematics
-    draft.state = replace(draft.state, kinematics=replace(held, ids=ids))
+    draft.state = draft.state.changed(kinematics=replace(held, ids=ids))
 
 
 def _choices(draft: Draft, command: tree.HashCommand, switching: bool) -> tuple[Choice, Choice]:

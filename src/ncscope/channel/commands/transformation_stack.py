@@ -35,7 +35,7 @@ def define(draft: Draft, command: tree.HashCommand) -> None:
         draft.fail("22175", command.span, what, f"use one of the names {', '.join(stacks)} again")
     steps = (_kinematics(draft, items, 0), _kinematics(draft, items, 1))
     stack = TransformationStack(name, _systems(draft, items), steps, draft.place)
-    draft.state = replace(draft.state, stacks={**stacks, name: stack})
+    draft.state = draft.state.changed(stacks={**stacks, name: stack})
 
 
 def on(draft: Draft, command: tree.HashCommand) -> None:
@@ -63,7 +63,7 @@ def activate(draft: Draft, command: tree.HashCommand, stack: TransformationStack
     _clear(draft, command)
     if any(stack.kinematics):
         kinematics = replace(draft.state.kinematics, ids=stack.kinematics)
-        draft.state = replace(draft.state, kinematics=kinematics)
+        draft.state = draft.state.changed(kinematics=kinematics)
         transformation.on(draft, command)
     for kind, id in stack.systems:
         definition = systems.stored(draft, command.span, kind, id)
@@ -83,7 +83,7 @@ def _clear(draft: Draft, command: tree.HashCommand) -> None:
             systems.forget(draft, level.kind, level.id)
     bare = replace(coordinates, levels=coordinates.levels[:1])
     draft.set_coordinates(bare, command.span)
-    draft.state = replace(draft.state, selected=0)
+    draft.state = draft.state.changed(selected=0)
 
 
 # --- how a stack is written --------------------------------------------------------------------
