@@ -12,6 +12,7 @@ from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language.lexer import BLANKS
 
 _BLANK_RUN = re.compile(r"[ \t\0\r]*")
+_BLANK_OR_END = frozenset(("", *BLANKS))
 _RUN = re.compile(r"\w+")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 
@@ -52,6 +53,9 @@ class Cursor:
 
     def skip(self) -> str:
         """Skips blanks; returns the next character."""
+        char = self.code[self.at : self.at + 1]
+        if char not in _BLANK_OR_END:
+            return char
         match = _BLANK_RUN.match(self.code, self.at)
         assert match is not None
         self.at = match.end()

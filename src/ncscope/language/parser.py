@@ -26,7 +26,7 @@ from ncscope.language.tree import (
     Number,
     Word,
 )
-from ncscope.language.words import word
+from ncscope.language.words import simple_words, word
 
 Diagnostics = tuple[Diagnostic, ...]
 
@@ -175,6 +175,10 @@ def _read(cursor: Cursor, draft: _Draft, declarations: bool) -> Diagnostics:
             return ()
         _block_start(cursor, draft)
         while cursor.skip():
+            if not declarations and draft.control is None:
+                simple_words(cursor, draft.words)
+                if cursor.at_end:
+                    break
             _content(cursor, draft, declarations)
     except Mistake as mistake:
         return (mistake.item,)
@@ -270,6 +274,8 @@ def _control(cursor: Cursor, draft: _Draft) -> None:
 
 
 def _crowded(draft: _Draft) -> Diagnostics:
+    if not draft.commands and draft.control is None:
+        return ()
     return crowded([*draft.words, *draft.declarations], draft.commands, draft.control)
 
 
@@ -294,6 +300,8 @@ def _empty(source: Source) -> Block:
 
 def _with(block: Block, found: Diagnostics) -> tuple[Block, Diagnostics]:
     """The block, which is not ok if an error was found."""
+    if not found and block.ok:
+        return block, found
     ok = not any(d.is_error for d in found)
     return (block if ok == block.ok else replace(block, ok=ok)), found
 

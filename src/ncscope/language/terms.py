@@ -10,7 +10,7 @@ import math
 import re
 
 from ncscope.diagnostics import Source, Span
-from ncscope.language.cursor import Cursor
+from ncscope.language.cursor import DEEPEST, Cursor
 from ncscope.language.functions import FUNCTIONS
 from ncscope.language.tree import (
     Binary,
@@ -60,11 +60,14 @@ CONTINUED = "a backslash at the end of a line joins the next line to it"
 WORD_OPERATORS = {"AND": "&& (or & for bits)", "OR": "|| (or | for bits)", "<>": "!="}
 _WORD_OPERATOR = re.compile(r"[ \t\0\r]+(AND|OR)(?![\w=])|[ \t\0\r]*(<>)", re.IGNORECASE)
 _NUMBER = re.compile(r"[0-9]+(?:\.[0-9]*)?|\.[0-9]+")
+_NUMBER_ALONE = re.compile(rf"[ \t\0\r]*({_NUMBER.pattern})(?=[ \t\0\r]*(?:[\],]|\Z))")
+"""A number behind which the expression ends: most expressions are no more."""
 _STRING = re.compile(r'"((?:\\"|[^"])*)"')
 _PARAMETER = re.compile(r"[Pp](?=[0-9]|\[|[Pp][0-9\[])")
 _DIGITS = re.compile(r"[0-9]+")
 _VARIABLE = re.compile(r"[Vv](?=\.[^\W0-9]|\.@)")
 _CYCLE = re.compile(r"@[Pp](?=[0-9]|\[)")
+_TARGET = re.compile("|".join(p.pattern for p in (_PARAMETER, _VARIABLE, _CYCLE)))
 _PART = re.compile(r"\.(@?\w+)")
 _SIGNED_PART = re.compile(r"\.([-+]?@?\w+)")
 _OPENS_FUNCTION = re.compile(r"([A-Za-z_]\w*)[ \t\0\r]*\[")
@@ -81,11 +84,13 @@ def starts_value(cursor: Cursor) -> bool:
 
 def starts_target(cursor: Cursor) -> bool:
     """Whether something that can be assigned to begins at the next character."""
-    return any(cursor.looks_at(p) for p in (_PARAMETER, _VARIABLE, _CYCLE))
+    return cursor.looks_at(_TARGET) is not None
 
 
 def expression(cursor: Cursor) -> Expression:
     """expr = term , { operator , term } ;"""
+    if cursor.depth < DEEPEST and (alone := cursor.match(_NUMBER_ALONE)) is not None:
+        return _literal(cursor, alone.group(1), alone.start(1))
     outer = cursor.operators
     if cursor.depth == 0:
         outer = cursor.operators = 0

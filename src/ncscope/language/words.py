@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from ncscope.diagnostics import Span
 from ncscope.language.calls import call
 from ncscope.language.cursor import Cursor
 from ncscope.language.functions import FUNCTIONS
@@ -91,13 +92,21 @@ def word(cursor: Cursor) -> Word:
     raise _unknown(cursor)
 
 
+def simple_words(cursor: Cursor, words: list[Word]) -> None:
+    """Reads the simple words up to the next one that is not; the cursor then stands there."""
+    while (found := cursor.match(_SIMPLE)) is not None:
+        words.append(_simple(cursor, found))
+        cursor.skip()
+
+
 def _simple(cursor: Cursor, found: re.Match[str]) -> Word:
     """A letter with a number behind it, which most words are."""
     letter, sign, digits = found.groups()
-    span = cursor.span(found.start())
-    number: Expression = Number(float(digits), cursor.span(found.start(3)))
+    source, start, end = cursor.source, cursor.base + found.start(), cursor.base + cursor.at
+    span = Span(source, start, end)
+    number: Expression = Number(float(digits), Span(source, end - len(digits), end))
     if sign:
-        number = Unary(sign, number, cursor.span(found.start(2)))
+        number = Unary(sign, number, Span(source, start + 1, end))
     if letter in AXIS_LETTERS:
         return AxisWord(letter, number, sign, span)
     if letter in "Gg":
