@@ -18,7 +18,7 @@ from ncscope.channel.gfunctions import GFUNCTIONS
 from ncscope.diagnostics import Source, Span
 from ncscope.execution import Options
 from ncscope.language.commands import COMMANDS
-from ncscope.language.expressions import EvaluationError, compile_expression
+from ncscope.language.expressions import EvaluationError, evaluate
 from ncscope.language.functions import rounded
 from ncscope.language.terms import parse_expression
 from ncscope.language.vocabulary import WORDS
@@ -275,7 +275,7 @@ def test_expression_has_the_value_of_python(pair):
         return
     tree = parse_expression(text, Span(Source("p", text), 0, len(text)))
     try:
-        found = compile_expression(tree)(None)  # type: ignore[arg-type]
+        found = evaluate(tree, None)  # type: ignore[arg-type]
     except EvaluationError:
         assert expected is None, text
         return

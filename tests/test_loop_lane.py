@@ -17,7 +17,7 @@ import ncscope
 from ncscope.channel import loop_lane
 from ncscope.execution import Options
 from ncscope.language import inline
-from ncscope.language.expressions import EvaluationError, compile_expression
+from ncscope.language.expressions import EvaluationError, evaluate
 from ncscope.language.terms import parse_expression
 from ncscope.machine import Machine
 from test_lanes import CA_HEAD, FLAT, assert_equal
@@ -135,7 +135,7 @@ def test_inline_source_has_the_value_of_the_expression(text):
     tree = parse_expression(text, Span(Source("p", text), 0, len(text)))
     code = f"finite({inline.source(tree, {})})"
     try:
-        expected = compile_expression(tree)(Plain(values))
+        expected = evaluate(tree, Plain(values))
     except EvaluationError:
         with pytest.raises(loop_lane.NOT_MADE):
             eval(code, {**inline.NAMESPACE, "v": values})

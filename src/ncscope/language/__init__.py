@@ -7,7 +7,6 @@ values to what `terms` has read.
 from ncscope.language.expressions import (
     Environment,
     EvaluationError,
-    compile_expression,
     evaluate,
     indices_of,
 )
@@ -18,7 +17,6 @@ __all__ = [
     "Environment",
     "EvaluationError",
     "Program",
-    "compile_expression",
     "evaluate",
     "indices_of",
     "iterate_blocks",

@@ -8,8 +8,8 @@ Source: TF5200 programming manual; the conventions there are marked as ours.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Protocol
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Protocol
 
 from ncscope.diagnostics import Span
 from ncscope.language.cursor import Mistake
@@ -52,14 +52,9 @@ class Environment(Protocol):
     def macro(self, name: str) -> str | None: ...
 
 
-Compiled = Callable[[Environment], Value]
-
-
 def evaluate(expression: Expression, environment: Environment) -> Value:
     """The value of an expression: a number, or a string."""
-    if type(expression) is Number:
-        return expression.value
-    return compile_expression(expression)(environment)
+    return _VALUES[type(expression)](expression, environment)
 
 
 def number(expression: Expression, environment: Environment) -> float:
@@ -80,102 +75,57 @@ def is_true(value: float) -> bool:
     return abs(value) >= 0.5
 
 
-_COMPILED: dict[int, tuple[Expression, Compiled]] = {}
+# --- by kind of node: an operand is evaluated by its own function, one frame for each level ----
 
 
-def compile_expression(expression: Expression) -> Compiled:
-    """A function from environment to value. The last some thousand are kept."""
-    known = _COMPILED.get(id(expression))
-    if known is not None:
-        return known[1]
-    if len(_COMPILED) > 8000:
-        _COMPILED.clear()
-    compiled = _compile(expression)
-    _COMPILED[id(expression)] = (expression, compiled)
-    return compiled
+def _literal(node: Number | Text, environment: Environment) -> Value:
+    return node.value
 
 
-def _compile(node: Expression) -> Compiled:
-    match node:
-        case Number(value) | Text(value):
-            return lambda environment: value
-        case Name(text):
-            return lambda environment: text
-        case Macro():
-            return _macro(node)
-        case Unary():
-            return _unary(node)
-        case Binary():
-            return _binary(node)
-        case Function():
-            return _function(node)
-        case _:
-            return _read(node)
+def _name(node: Name, environment: Environment) -> Value:
+    return node.text
 
 
-def _compile_number(node: Expression) -> Callable[[Environment], float]:
-    if isinstance(node, Text):
-        node = Macro(node.value, node.span)
-    inner = _compile(node)
-
-    def apply(environment: Environment) -> float:
-        value = inner(environment)
-        if isinstance(value, str):
-            raise _not_a_number(node, value)
-        return value
-
-    return inner if isinstance(node, Number) else apply  # type: ignore[return-value]
+def _unary(node: Unary, environment: Environment) -> Value:
+    inner = node.operand
+    operand = _as_number(inner, _VALUES[type(inner)](inner, environment), environment)
+    return -operand if node.operator == "-" else operand
 
 
-def _unary(node: Unary) -> Compiled:
-    operand = _compile_number(node.operand)
-    if node.operator == "-":
-        return lambda environment: -operand(environment)
-    return operand
-
-
-def _binary(node: Binary) -> Compiled:
+def _binary(node: Binary, environment: Environment) -> Value:
+    """`+` and the comparisons take two strings too."""
+    left, right = node.left, node.right
     if node.operator in _ON_STRINGS and not _has_number_literal(node):
-        return _binary_on_values(node)
-    left, right = _compile_number(node.left), _compile_number(node.right)
-    apply, span = ARITHMETIC[node.operator], node.span
-
-    def run(environment: Environment) -> float:
-        return _checked(apply, (left(environment), right(environment)), span)
-
-    return run
+        a = _VALUES[type(left)](left, environment)
+        b = _VALUES[type(right)](right, environment)
+        if isinstance(a, str) and isinstance(b, str) and not _are_macros(node, environment):
+            return _on_strings(node, a, b)
+        pair = _as_number(left, a, environment), _as_number(right, b, environment)
+    else:
+        x = _as_number(left, _VALUES[type(left)](left, environment), environment)
+        pair = x, _as_number(right, _VALUES[type(right)](right, environment), environment)
+    return _checked(ARITHMETIC[node.operator], pair, node.span)
 
 
 def _has_number_literal(node: Binary) -> bool:
     return isinstance(node.left, Number) or isinstance(node.right, Number)
 
 
-def _binary_on_values(node: Binary) -> Compiled:
-    """`+` and the comparisons take two strings too.
+def _are_macros(node: Binary, environment: Environment) -> bool:
+    """Whether two strings are literals that both name macros: these stand for numbers."""
+    sides = (node.left, node.right)
+    return all(isinstance(n, Text) and environment.macro(n.value) is not None for n in sides)
 
-    A string beside a number names a macro, and so do two strings that both are names of macros.
-    """
-    left, right, span = _compile(node.left), _compile(node.right), node.span
-    on_numbers, on_strings = ARITHMETIC[node.operator], _ON_STRINGS[node.operator]
-    literals = [n.value for n in (node.left, node.right) if isinstance(n, Text)]
 
-    def macros(environment: Environment) -> bool:
-        return len(literals) == 2 and all(environment.macro(n) is not None for n in literals)
-
-    def run(environment: Environment) -> Value:
-        a, b = left(environment), right(environment)
-        if isinstance(a, str) and isinstance(b, str) and not macros(environment):
-            try:
-                return on_strings(a, b)
-            except NoValue as error:
-                raise failure(error.id, span, error.message) from None
-        pair = (_as_number(node.left, a, environment), _as_number(node.right, b, environment))
-        return _checked(on_numbers, pair, span)
-
-    return run
+def _on_strings(node: Binary, left: str, right: str) -> Value:
+    try:
+        return _ON_STRINGS[node.operator](left, right)
+    except NoValue as error:
+        raise failure(error.id, node.span, error.message) from None
 
 
 def _as_number(node: Expression, value: Value, environment: Environment) -> float:
+    """The value of an operand that must be a number; a string literal names a macro."""
     if not isinstance(value, str):
         return value
     if isinstance(node, Text):
@@ -183,7 +133,7 @@ def _as_number(node: Expression, value: Value, environment: Environment) -> floa
     raise _not_a_number(node, value)
 
 
-def _checked(apply: Callable[..., float], values: tuple[Value, ...], span: Span) -> float:
+def _checked(apply: Callable[..., float], values: Iterable[Value], span: Span) -> float:
     """Calls the function; its failure, and any result that is not finite, becomes a diagnostic."""
     try:
         result = apply(*values)
@@ -196,49 +146,40 @@ def _checked(apply: Callable[..., float], values: tuple[Value, ...], span: Span)
     raise failure("21883", span, "The value of the expression overflows.")
 
 
-def _function(node: Function) -> Compiled:
+def _function(node: Function, environment: Environment) -> Value:
     if node.name in ("EXIST", "SIZEOF"):
-        return _query(node)
+        return _query(node, environment)
     entry = FUNCTIONS[node.name]
-    compiled = [
-        _compile_number(argument) if kind == "n" else _compile(argument)
-        for argument, kind in zip(node.arguments, entry.kinds, strict=False)
-    ]
-    apply, span = entry.apply, node.span
-
-    def run(environment: Environment) -> Value:
-        values = tuple(argument(environment) for argument in compiled)
-        _check_strings(node, values, entry.kinds)
-        if apply is None and node.name == "MACRO_CONTENT":
-            return content(str(values[0]), environment.macro, span)
-        if apply is None:
-            return float(len(_macro_text(environment, str(values[0]), span)))
-        result: Value = _checked(apply, values, span)
-        return result if isinstance(result, str) else float(result)
-
-    return run
+    values: list[Value] = []
+    for argument, kind in zip(node.arguments, entry.kinds, strict=False):
+        value = _VALUES[type(argument)](argument, environment)
+        values.append(_as_number(argument, value, environment) if kind == "n" else value)
+    _check_strings(node, values, entry.kinds)
+    if entry.apply is None and node.name == "MACRO_CONTENT":
+        return content(str(values[0]), environment.macro, node.span)
+    if entry.apply is None:
+        return float(len(_macro_text(environment, str(values[0]), node.span)))
+    result: Value = _checked(entry.apply, values, node.span)
+    return result if isinstance(result, str) else float(result)
 
 
-def _check_strings(node: Function, values: tuple[Value, ...], kinds: str) -> None:
+def _check_strings(node: Function, values: Sequence[Value], kinds: str) -> None:
     for argument, value, kind in zip(node.arguments, values, kinds, strict=False):
         if kind == "s" and not isinstance(value, str):
             raise failure("N1006", argument.span, f"{node.name} needs a string here.")
 
 
-def _query(node: Function) -> Compiled:
+def _query(node: Function, environment: Environment) -> Value:
     target = node.arguments[0]
     assert isinstance(target, Variable | Parameter | CycleParameter)
+    wanted = 1
+    if len(node.arguments) > 1:
+        dimension = node.arguments[1]
+        wanted = rounded(_as_number(dimension, evaluate(dimension, environment), environment))
+    indices = indices_of(target, environment)
     if node.name == "EXIST":
-        return lambda environment: float(
-            environment.exists(target, indices_of(target, environment))
-        )
-    dimension = _compile_number(node.arguments[1]) if len(node.arguments) > 1 else None
-
-    def size(environment: Environment) -> float:
-        wanted = rounded(dimension(environment)) if dimension else 1
-        return float(environment.size(target, indices_of(target, environment), wanted))
-
-    return size
+        return float(environment.exists(target, indices))
+    return float(environment.size(target, indices, wanted))
 
 
 def _index_nodes(node: Readable) -> tuple[Expression, ...]:
@@ -249,40 +190,48 @@ def _index_nodes(node: Readable) -> tuple[Expression, ...]:
     return (node.number,)
 
 
-def _read(node: Readable) -> Compiled:
-    nodes = _index_nodes(node)
-    if all(isinstance(index, Number) for index in nodes):
-        fixed = tuple(rounded(index.value) for index in nodes if isinstance(index, Number))
-        return lambda environment: environment.read(node, fixed)
-    compiled = [_compile_number(index) for index in nodes]
-    return lambda environment: environment.read(
-        node, tuple(rounded(index(environment)) for index in compiled)
+def _read(node: Readable, environment: Environment) -> Value:
+    numbers = (
+        rounded(_as_number(index, _VALUES[type(index)](index, environment), environment))
+        for index in _index_nodes(node)
     )
+    return environment.read(node, tuple(numbers))
 
 
-def _macro(node: Macro) -> Compiled:
-    def run(environment: Environment) -> Value:
-        depth = environment.depth + 1 if isinstance(environment, _InMacro) else 1
-        if depth > DEEPEST_MACRO:
-            hint = "a macro cannot stand in its own text, nor in the text of a macro that it uses"
-            raise failure("20734", node.span, f"The macro {node.name!r} contains itself.", hint)
-        uses = environment.uses if isinstance(environment, _InMacro) else [0]
-        uses[0] += 1
-        if uses[0] > MOST_USES:
-            raise failure("20734", node.span, f"More than {MOST_USES} macros are used.")
-        text = _macro_text(environment, node.name, node.span)
-        inside = environment.outer if isinstance(environment, _InMacro) else environment
-        try:
-            tree = parse_expression(text, node.span)
-        except Mistake as mistake:
-            message = f"The macro {node.name!r} is no expression: {mistake.item.message}"
-            raise failure(mistake.item.id, node.span, message) from None
-        try:
-            return _compile(tree)(_InMacro(inside, depth, uses))
-        except EvaluationError as error:
-            raise EvaluationError(used_at(error.diagnostic, node.span)) from None
+def _macro(node: Macro, environment: Environment) -> Value:
+    depth = environment.depth + 1 if isinstance(environment, _InMacro) else 1
+    if depth > DEEPEST_MACRO:
+        hint = "a macro cannot stand in its own text, nor in the text of a macro that it uses"
+        raise failure("20734", node.span, f"The macro {node.name!r} contains itself.", hint)
+    uses = environment.uses if isinstance(environment, _InMacro) else [0]
+    uses[0] += 1
+    if uses[0] > MOST_USES:
+        raise failure("20734", node.span, f"More than {MOST_USES} macros are used.")
+    text = _macro_text(environment, node.name, node.span)
+    inside = environment.outer if isinstance(environment, _InMacro) else environment
+    try:
+        tree = parse_expression(text, node.span)
+    except Mistake as mistake:
+        message = f"The macro {node.name!r} is no expression: {mistake.item.message}"
+        raise failure(mistake.item.id, node.span, message) from None
+    try:
+        return evaluate(tree, _InMacro(inside, depth, uses))
+    except EvaluationError as error:
+        raise EvaluationError(used_at(error.diagnostic, node.span)) from None
 
-    return run
+
+_VALUES: dict[type, Callable[[Any, Environment], Value]] = {
+    Number: _literal,
+    Text: _literal,
+    Name: _name,
+    Unary: _unary,
+    Binary: _binary,
+    Function: _function,
+    Macro: _macro,
+    Variable: _read,
+    Parameter: _read,
+    CycleParameter: _read,
+}
 
 
 def _macro_text(environment: Environment, name: str, span: Span) -> str:
