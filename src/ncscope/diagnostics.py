@@ -73,6 +73,9 @@ class Source:
 
     def end_of_line(self, offset: int) -> int:
         """Offset of the next line feed at or behind `offset`, or of the end of the text."""
+        if isinstance(self.content, str):
+            at = self.content.find("\n", offset)
+            return at if at >= 0 else len(self)
         while offset < len(self):
             at = self.part(offset, offset + _PIECE).find("\n")
             if at >= 0:
@@ -89,6 +92,18 @@ class Source:
         if start >= 0:
             return line, len(before) - start
         return line, offset - self._start_of_line(piece * _PIECE) + 1
+
+    def line(self, offset: int) -> int:
+        """Line of a character, counted from 1: from the last one that was asked for, if near."""
+        known, line = self.__dict__.get("_near", (0, 1))
+        if not known <= offset < known + _PIECE:
+            line = self.position(offset)[0]
+        elif isinstance(self.content, str):
+            line += self.content.count("\n", known, offset)
+        else:
+            line += self.data[known:offset].tobytes().count(b"\n")
+        self.__dict__["_near"] = offset, line
+        return line
 
     def learn(self, start: int, stops: NDArray[np.int64], line: int) -> None:
         """What a reader of lines knows already: line `line` begins at `start`, and each stop is
@@ -172,7 +187,7 @@ class Span(NamedTuple):
 
     @property
     def line(self) -> int:
-        return self.source.position(self.start)[0]
+        return self.source.line(self.start)
 
     @property
     def column(self) -> int:

@@ -130,11 +130,10 @@ def _circle(draft: Draft, target: Array, span: Span) -> _Circle:
         what = "an arc needs the same scale factor (#SCALE) for both axes of its plane"
         draft.fail("N2020", span, what)
     start = state.position.program
-    points = (start[first], start[second]), (target[first], target[second])
+    points = [(float(p[first]), float(p[second])) for p in (start, target)]
     if not all(abs(v) < LARGEST for point in points for v in point):
         draft.fail("21883", span, "the arc is too large to be computed")
-    from_to = tuple((float(a), float(b)) for a, b in points)
-    return _Circle((first, second), from_to[0], from_to[1], state.modal.motion == "G02", span)
+    return _Circle((first, second), points[0], points[1], state.modal.motion == "G02", span)
 
 
 def _outside_plane(

@@ -46,7 +46,7 @@ class BlockError(Exception):
         self.diagnostic = diagnostic
 
 
-@dataclass
+@dataclass(slots=True)
 class Draft:
     """The working copy of the state during one block.
 
@@ -87,9 +87,10 @@ class Draft:
 
     def axis_index(self, name: str, span: Span, id: str = "20200") -> int:
         """Channel index of an axis; fails with the axes that exist."""
+        for index, axis in enumerate(self.state.axes):
+            if axis.name == name:
+                return index
         names = self.state.axis_names
-        if name in names:
-            return names.index(name)
         if name.startswith("@"):
             self.cycle_parameters(span, "21383")
             return self.state.main_axes["XYZ".index(name[1])]

@@ -74,7 +74,11 @@ def evaluate_value(draft: Draft, expression: tree.Expression) -> Value:
 
 def evaluate_number(draft: Draft, expression: tree.Expression) -> float:
     """The finite number of an expression; 20392 for a text, 21883 beyond the range."""
-    value = evaluate_value(draft, expression)
+    value: Value
+    if isinstance(expression, tree.Number):
+        value = expression.value
+    else:
+        value = evaluate_value(draft, expression)
     if isinstance(value, str):
         draft.fail("20392", expression.span, "a number is needed here, not a text")
     if not math.isfinite(value):

@@ -59,7 +59,9 @@ def _travel_arc(draft: Draft, words: Words, centre: dict[int, circle.Word]) -> N
 def _direction_word(draft: Draft, words: Words) -> Span | None:
     """The first word of the block that gives the tool direction."""
     active = draft.state.coordinates.kinematics
-    columns = () if active is None else active.model.orientation
+    if active is None:
+        return None
+    columns = active.model.orientation
     return next((words.axes[axis][1] for axis in columns if axis in words.axes), None)
 
 

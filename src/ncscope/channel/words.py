@@ -13,7 +13,7 @@ from ncscope.language import tree
 PRESET_NAMES = ("PSET", "PRESET")
 
 
-@dataclass
+@dataclass(slots=True)
 class Words:
     """The words of one block, each evaluated, waiting for the rule that takes it.
 

@@ -76,6 +76,7 @@ class Loop:
         self.inspector = Inspector()
         self.messages: list[Message] = []
         self.channels = [(0, self.state.axes)]
+        self.named = self.state.axes, self.state.axis_names
         self.sources = {source.name: source}
         self.count = 0
         self.ended = False
@@ -100,7 +101,9 @@ class Loop:
         self.state = step.state
         self.messages.extend(step.messages)
         self.add(step.diagnostics)
-        self.add(_record(self.transitions, before, step, block))
+        if step.state.axes is not self.named[0]:
+            self.named = step.state.axes, step.state.axis_names
+        self.add(_record(self.transitions, before, step, block, self.named[1]))
         self.ended, self.returned, self.calls = step.ended, step.returned, step.calls
         if step.state.axes is not before.axes:
             self.recorder.split()
@@ -238,11 +241,11 @@ def _skipped(block: tree.Block, options: Options) -> bool:
 
 
 def _record(
-    transitions: Transitions, before: State, step: Step, block: tree.Block
+    transitions: Transitions, before: State, step: Step, block: tree.Block, names: tuple[str, ...]
 ) -> tuple[Diagnostic, ...]:
     state, recorder = step.state, transitions.recorder
     start = before.position.axes
-    found = transitions.take(state.coordinates, state.axis_names, step.moves, start)
+    found = transitions.take(state.coordinates, names, step.moves, start)
     if step.corner is not None:
         found += transitions.insert(step.corner)
     if not step.moves and block.span.source.name == recorder.file:
@@ -250,7 +253,7 @@ def _record(
             block.span.line,
             state.block,
             state.coordinates,
-            state.axis_names,
+            names,
             state.position.program,
             state.position.axes,
         )

@@ -44,6 +44,7 @@ _COARSE = re.compile(
 _BRACKET = re.compile(r"[()]")
 _AFTER_JOIN = re.compile(r"\\[ \t\0\r]*(?=[;(\n]|\Z)")
 _NEEDS_TOKENS = re.compile(r"[\\(;\"]")
+_JOINS_OR_QUOTES = re.compile(r"[\\\"]")
 
 
 class Token(NamedTuple):
@@ -96,8 +97,13 @@ def read_line(source: Source, start: int) -> Line:
     """The logical line at `start`. Most lines have no comment and are taken as they are."""
     stop = source.end_of_line(start)
     code = source.part(start, stop)
-    if _NEEDS_TOKENS.search(code) is None:
+    found = _NEEDS_TOKENS.search(code)
+    if found is None:
         return Line(code, start, min(stop + 1, len(source)), len(code) > LONGEST_LINE)
+    if _JOINS_OR_QUOTES.search(code) is None:
+        end = min(stop + 1, len(source))
+        shown = _without_comments(code, found.start()) + " " * (end - stop)
+        return Line(shown, start, end, len(code) > LONGEST_LINE)
     size = _WINDOW
     while True:
         text = source.part(start, start + size)
@@ -105,6 +111,17 @@ def read_line(source: Source, start: int) -> Line:
         if line.stop < start + len(text) or start + len(text) >= len(source):
             return line
         size *= 4
+
+
+def _without_comments(code: str, at: int) -> str:
+    """A line without joins and strings, with a blank for each character of its comments; the
+    first one begins at `at`."""
+    while at < len(code):
+        end = _line_end(code, at) if code[at] == ";" else _closing(code, at)
+        code = code[:at] + " " * (end - at) + code[end:]
+        found = _NEEDS_TOKENS.search(code, end)
+        at = len(code) if found is None else found.start()
+    return code
 
 
 def _joined_line(text: str, offset: int) -> Line:

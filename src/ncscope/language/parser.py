@@ -111,8 +111,9 @@ class BlockReader:
             block, found, self.at = parse_block(source, self.at, declarations=declaring)
             if block is None:
                 continue
-            block, found = _with(block, (*pending, *found))
-            pending = ()
+            if pending:
+                found, pending = (*pending, *found), ()
+            block, found = _with(block, found)
             block, found = self._follow_header(block, found)
             name = block.commands[0].name if block.commands else ""
             if name == "ENDVAR" and not declaring:
@@ -164,7 +165,7 @@ def parse_block(
     draft, found = _Draft(), _too_long(line, span)
     if not found:
         found = _read(cursor, draft, declarations) + _crowded(draft)
-    return _block(draft, span, not any(d.is_error for d in found)), found, line.stop
+    return _block(draft, span, not found or not any(d.is_error for d in found)), found, line.stop
 
 
 def _read(cursor: Cursor, draft: _Draft, declarations: bool) -> Diagnostics:

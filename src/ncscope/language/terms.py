@@ -60,7 +60,11 @@ CONTINUED = "a backslash at the end of a line joins the next line to it"
 WORD_OPERATORS = {"AND": "&& (or & for bits)", "OR": "|| (or | for bits)", "<>": "!="}
 _WORD_OPERATOR = re.compile(r"[ \t\0\r]+(AND|OR)(?![\w=])|[ \t\0\r]*(<>)", re.IGNORECASE)
 _NUMBER = re.compile(r"[0-9]+(?:\.[0-9]*)?|\.[0-9]+")
-_NUMBER_ALONE = re.compile(rf"[ \t\0\r]*({_NUMBER.pattern})(?=[ \t\0\r]*(?:[\],]|\Z))")
+_NUMBER_ALONE = re.compile(
+    rf"[ \t\0\r]*({_NUMBER.pattern})"
+    r"(?=[ \t\0\r]*(?:[\],:#]|\Z|(?!(?:MOD|XOR|AND|OR)(?!\w))[A-Z]))",
+    re.IGNORECASE,
+)
 """A number behind which the expression ends: most expressions are no more."""
 _STRING = re.compile(r'"((?:\\"|[^"])*)"')
 _PARAMETER = re.compile(r"[Pp](?=[0-9]|\[|[Pp][0-9\[])")
