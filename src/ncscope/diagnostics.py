@@ -27,6 +27,9 @@ class Severity(StrEnum):
     NOTE = "note"
 
 
+_MOST_LINES = 160
+"""Characters that a line of a program hardly has."""
+_SEVERITIES = {severity.value: severity for severity in Severity}
 _PIECE = 2048
 """Characters between two known line numbers of a source."""
 AHEAD = 1024
@@ -70,6 +73,14 @@ class Source:
         mapped = self.content.base if isinstance(self.content, np.memmap) else None
         if isinstance(mapped, mmap.mmap) and hasattr(mmap, "MADV_DONTNEED"):
             mapped.madvise(mmap.MADV_DONTNEED, 0, stop // mmap.PAGESIZE * mmap.PAGESIZE)
+
+    def rest_of_line(self, offset: int) -> str:
+        """The characters from `offset` up to the next line feed or the end of the text."""
+        if isinstance(self.content, str):
+            return self.content[offset : self.end_of_line(offset)]
+        text = self.part(offset, offset + _MOST_LINES)
+        end = text.find("\n")
+        return text[:end] if end >= 0 else self.part(offset, self.end_of_line(offset))
 
     def end_of_line(self, offset: int) -> int:
         """Offset of the next line feed at or behind `offset`, or of the end of the text."""
@@ -249,7 +260,7 @@ def diagnostic(
     Raises KeyError for an id that the catalogue does not explain.
     """
     entry = CATALOGUE[id]
-    return Diagnostic(id, message, span, hint, severity or Severity(entry.severity), notes)
+    return Diagnostic(id, message, span, hint, severity or _SEVERITIES[entry.severity], notes)
 
 
 def render(item: Diagnostic) -> str:

@@ -6,7 +6,7 @@ error the state is as before the block.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ncscope.channel import calls, macros, modulo, radius_compensation, tools
 from ncscope.channel.commands import COMMANDS, LAST, point_to_point
@@ -28,8 +28,7 @@ from ncscope.motion import Move
 from ncscope.motion.corners import Corner
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(NamedTuple):
     """What one block did.
 
     corner: a chamfer or rounding before the next move. ended: M02 or M30 was reached.

@@ -58,7 +58,7 @@ def words(draft: Draft, word: tree.Macro, depth: int, uses: int) -> tuple[tree.W
     found, error = _parsed(text, TEXT + word.name)
     if error is not None:
         raise BlockError(error)
-    return tuple(replace(item, span=word.span) for item in found)
+    return tuple(item._replace(span=word.span) for item in found)
 
 
 @contextmanager

@@ -6,7 +6,6 @@ Source: TF5200 programming manual, programming modulo axes; P-AXIS-00015, P-CHAN
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ncscope.channel.draft import Draft
@@ -39,7 +38,7 @@ def _without_sign(value: tree.Expression) -> tree.Expression:
     if isinstance(value, tree.Unary):
         return value.operand
     if isinstance(value, tree.Binary):
-        return replace(value, left=_without_sign(value.left))
+        return value._replace(left=_without_sign(value.left))
     return value
 
 

@@ -95,8 +95,8 @@ def _pieces(text: str, start: int, pattern: re.Pattern[str]) -> Iterator[Token]:
 
 def read_line(source: Source, start: int) -> Line:
     """The logical line at `start`. Most lines have no comment and are taken as they are."""
-    stop = source.end_of_line(start)
-    code = source.part(start, stop)
+    code = source.rest_of_line(start)
+    stop = start + len(code)
     found = _NEEDS_TOKENS.search(code)
     if found is None:
         return Line(code, start, min(stop + 1, len(source)), len(code) > LONGEST_LINE)

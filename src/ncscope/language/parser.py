@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from ncscope.diagnostics import Diagnostic, Source, Span, diagnostic
 from ncscope.language.controls import behind, broken, control
@@ -51,7 +51,7 @@ class Program:
     subprograms: Mapping[str, range]
 
 
-@dataclass
+@dataclass(slots=True)
 class _Draft:
     """What has been read of a block."""
 
@@ -304,7 +304,7 @@ def _with(block: Block, found: Diagnostics) -> tuple[Block, Diagnostics]:
     if not found and block.ok:
         return block, found
     ok = not any(d.is_error for d in found)
-    return (block if ok == block.ok else replace(block, ok=ok)), found
+    return (block if ok == block.ok else block._replace(ok=ok)), found
 
 
 def _too_long(line: Line, span: Span) -> Diagnostics:

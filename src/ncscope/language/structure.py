@@ -8,7 +8,7 @@ Source: TF5200 programming manual
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from ncscope.diagnostics import Diagnostic, Severity, Source, Span, diagnostic
 from ncscope.language.parser import BlockReader, is_comment
@@ -168,7 +168,7 @@ def _entry(block: Block, found: Diagnostics) -> Entry:
     if not rest:
         return Entry(block, found)
     found = (*found, _behind_call(call, rest[0].span))
-    return Entry(replace(block, words=block.words[: calls[0] + 1]), found)
+    return Entry(block._replace(words=block.words[: calls[0] + 1]), found)
 
 
 def _before_cycle(call: Call) -> Diagnostic:

@@ -6,39 +6,35 @@ An expression is any of the classes of `Expression`; a word is any of the classe
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ncscope.diagnostics import Span
 
 # --- expressions -------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(NamedTuple):
     """A literal number, as written (no unit is applied here)."""
 
     value: float
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(NamedTuple):
     """A string literal without its quotes."""
 
     value: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Name(NamedTuple):
     """A bare identifier in the brackets of a # command: an axis, a keyword or a file name."""
 
     text: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Unary:
+class Unary(NamedTuple):
     """`-x`, `+x`; `operator` is the sign."""
 
     operator: str
@@ -46,8 +42,7 @@ class Unary:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Binary:
+class Binary(NamedTuple):
     """`operator` is one of + - * / ** MOD & | ^ && || XOR == != < <= > >=."""
 
     operator: str
@@ -56,8 +51,7 @@ class Binary:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Function:
+class Function(NamedTuple):
     """`SIN[..]`: name in capitals, its arguments in order. Includes NOT, INV, EXIST, SIZEOF."""
 
     name: str
@@ -65,24 +59,21 @@ class Function:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(NamedTuple):
     """One dotted part of a variable with the indices that follow it."""
 
     name: str
     indices: tuple[Expression, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Variable:
+class Variable(NamedTuple):
     """`V.G.KIN[91].POINT[0]`: parts V, G, KIN[91], POINT[0], names as written."""
 
     parts: tuple[Part, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+class Parameter(NamedTuple):
     """`P5`, `P[expr]`, `P5[1][2]`; `number` is the expression after the P."""
 
     number: Expression
@@ -90,16 +81,14 @@ class Parameter:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class CycleParameter:
+class CycleParameter(NamedTuple):
     """`@P1`."""
 
     number: Expression
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Macro:
+class Macro(NamedTuple):
     """`"NAME"` used as a value or as a word."""
 
     name: str
@@ -113,8 +102,7 @@ Expression = (
 # --- words -------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class GWord:
+class GWord(NamedTuple):
     """`G01`, `G[expr]`, `G159=3`, `G82 [1,2]`: `value` after `=`, `arguments` in brackets."""
 
     number: Expression
@@ -123,8 +111,7 @@ class GWord:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class MWord:
+class MWord(NamedTuple):
     """`M30`, `M17 [JUMPS=2]`."""
 
     number: Expression
@@ -132,8 +119,7 @@ class MWord:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class AddressWord:
+class AddressWord(NamedTuple):
     """One of D E F H I J K R S T with its value; `letter` is a capital."""
 
     letter: str
@@ -141,8 +127,7 @@ class AddressWord:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class AxisWord:
+class AxisWord(NamedTuple):
     """`X10`, `X_ACHSE1=5`. `sign` is the first sign after a one-letter name ('' + -), which is
     also part of `value`; on a modulo axis it is the turning direction."""
 
@@ -152,8 +137,7 @@ class AxisWord:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class AxisCommand:
+class AxisCommand(NamedTuple):
     """`X[INDP_SYN POS=5 ..]`: an axis-specific command; `keyword` in capitals."""
 
     name: str
@@ -161,8 +145,7 @@ class AxisCommand:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Assignment:
+class Assignment(NamedTuple):
     """`P1 = 5`, `V.P.A += 1`; `operator` is = += -= *= /=. A list value is for arrays."""
 
     target: Variable | Parameter | CycleParameter
@@ -171,8 +154,7 @@ class Assignment:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class MacroDefinition:
+class MacroDefinition(NamedTuple):
     """`"NAME" = "text"`."""
 
     name: str
@@ -180,8 +162,7 @@ class MacroDefinition:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+class Call(NamedTuple):
     """`LL name`, `L file.nc`, `L CYCLE [..]`: a subprogram call; `kind` is L, LL or
     `L CYCLE`, `LL CYCLE`, `L SEQUENCE`."""
 
@@ -191,8 +172,7 @@ class Call:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class SpindleWord:
+class SpindleWord(NamedTuple):
     """`S1=1000`, `S.POS=90`, `S[...]`: a spindle word with a longer name."""
 
     name: str
@@ -215,8 +195,7 @@ Word = (
 # --- commands and blocks -----------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Item:
+class Item(NamedTuple):
     """One argument in brackets: `key=value`, `key value`, or a value alone (`key` None).
 
     Keys are capitals. An empty place between commas has neither key nor value.
@@ -227,8 +206,7 @@ class Item:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(NamedTuple):
     """One `[..]` of a command: cells between commas, each with blank-separated items."""
 
     cells: tuple[tuple[Item, ...], ...]
@@ -247,8 +225,7 @@ class Group:
         return tuple(cell[0].value if cell else None for cell in self.cells)
 
 
-@dataclass(frozen=True, slots=True)
-class HashCommand:
+class HashCommand(NamedTuple):
     """`#CS ON [1][..]`: `name` is the longest known command name in capitals with single blanks
     (`CS ON`), `modifiers` the further keywords before or after brackets (`EXCLUSIVE`),
     `words` the axis and G words in the command (`#PSET X20`, `#CHR=2`)."""
@@ -262,8 +239,7 @@ class HashCommand:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Control:
+class Control(NamedTuple):
     """`$IF e`, `$FOR P1 = 1, 5, 1`, `$GOTO N10`, `$ENDIF`: `keyword` in capitals without `$`.
 
     `values` has the condition, or the three values of $FOR; `target` is the $FOR variable, the
@@ -276,8 +252,7 @@ class Control:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Declaration:
+class Declaration(NamedTuple):
     """A line between #VAR and #ENDVAR: `V.P.A[3] : SGN32 = [1,2,3]`."""
 
     target: Variable | Parameter
@@ -287,8 +262,7 @@ class Declaration:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Block:
+class Block(NamedTuple):
     """One block: what stands in one line (or in lines joined by a backslash).
 
     `labels` are those of `N10: [NAME]`, in capitals, string labels with their brackets. `skip` is

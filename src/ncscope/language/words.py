@@ -52,9 +52,10 @@ AXIS_COMMANDS = axis_commands()
 
 _SIMPLE = re.compile(
     r"([A-KMQRT-Za-kmqrt-z])([-+]?)([0-9]{1,15}(?:\.[0-9]{0,15})?|\.[0-9]{1,15})"
-    r"(?=[ \t\0\r]*\Z|[ \t\0\r]+(?!(?:MOD|XOR)(?!\w))[A-Za-z])",
+    r"(?:[ \t\0\r]*\Z|[ \t\0\r]+(?!(?:MOD|XOR)(?!\w))(?=[A-Za-z]))",
     re.IGNORECASE,
 )
+"""Letter, sign, digits and the blanks behind them."""
 _SIGNED_DWELL = re.compile(r"[Gg]0*4(?=[ \t\0\r]+[-+])")
 """G04 -1 is a time, not G3."""
 _LONG_NAME = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*=(?!=)", re.ASCII)
@@ -71,7 +72,7 @@ _RUN = re.compile(r"[^\W0-9]\w*")
 
 def word(cursor: Cursor) -> Word:
     """word = gword | mword | axisword | addrword | assign | call | macro ;"""
-    simple = cursor.match(_SIMPLE)
+    simple = cursor.looks_at(_SIMPLE)
     if simple is not None:
         return _simple(cursor, simple)
     letter = cursor.char
@@ -94,24 +95,28 @@ def word(cursor: Cursor) -> Word:
 
 def simple_words(cursor: Cursor, words: list[Word]) -> None:
     """Reads the simple words up to the next one that is not; the cursor then stands there."""
-    while (found := cursor.match(_SIMPLE)) is not None:
+    while (found := _SIMPLE.match(cursor.code, cursor.at)) is not None:
         words.append(_simple(cursor, found))
-        cursor.skip()
+        if cursor.at == found.end(3):
+            cursor.at = found.end()
+        else:
+            cursor.skip()
 
 
 def _simple(cursor: Cursor, found: re.Match[str]) -> Word:
     """A letter with a number behind it, which most words are."""
     letter, sign, digits = found.groups()
-    source, start, end = cursor.source, cursor.base + found.start(), cursor.base + cursor.at
-    span = Span(source, start, end)
+    start, cursor.at = found.start(), found.end(3)
+    source, begin, end = cursor.source, cursor.base + start, cursor.base + cursor.at
+    span = Span(source, begin, end)
     number: Expression = Number(float(digits), Span(source, end - len(digits), end))
     if sign:
-        number = Unary(sign, number, Span(source, start + 1, end))
+        number = Unary(sign, number, Span(source, begin + 1, end))
     if letter in AXIS_LETTERS:
         return AxisWord(letter, number, sign, span)
     if letter in "Gg":
         if float(digits) == DWELL:
-            return _dwell(cursor, number, found.start())
+            return _dwell(cursor, number, start)
         return GWord(number, None, None, span)
     if letter in "Mm":
         return MWord(number, (), span)

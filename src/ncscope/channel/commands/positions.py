@@ -6,8 +6,6 @@ Source: TF5200 requesting offset, command and actual values.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ncscope.channel import user_variables
 from ncscope.channel.draft import Draft
 from ncscope.channel.evaluation import indices
@@ -37,7 +35,7 @@ def _target(draft: Draft, item: tree.Item) -> tree.Variable | tree.Parameter:
     if not isinstance(node, (tree.Variable, tree.Parameter)) or not user_variables.is_user(node):
         what = "the position goes to a P parameter or a variable of the program"
         draft.fail("N1005", item.span, what, _FORM)
-    return replace(node, span=item.span)
+    return node._replace(span=item.span)
 
 
 def _parsed(item: tree.Item) -> tree.Expression | None:
