@@ -282,7 +282,9 @@ def render(item: Diagnostic) -> str:
 
 def _excerpt(span: Span) -> list[str]:
     line, column = span.source.position(span.start)
-    text = _printable(span.source.line_text(line))
+    start = span.start - (column - 1)
+    text = span.source.part(start, span.source.end_of_line(start)).rstrip("\r\n")
+    text = _printable(text)
     width = max(1, min(span.end - span.start, len(text) - column + 1))
     first, text, column = _window(text, column)
     number = str(line)

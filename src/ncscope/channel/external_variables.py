@@ -10,6 +10,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 
+from ncscope.channel.elements import Elements
 from ncscope.channel.state import Stored
 from ncscope.channel.user_variables import Unfit, Value, fitted
 from ncscope.machine import Machine
@@ -29,7 +30,7 @@ def external_variables(machine: Machine, values: External) -> dict[str, Stored]:
     for name, row in machine.external.items():
         start: Value = "" if row.type == "STRING" else 0.0
         dimensions = (row.elements,) if row.elements else ()
-        value = (start,) * row.elements if row.elements else start
+        value = Elements.of((start,) * row.elements) if row.elements else start
         variables[f"V.E.{name}"] = Stored(value, dimensions, row.type, row.length)
     for text, given in values.items():
         match = EXTERNAL_NAME.fullmatch(text)
@@ -58,7 +59,9 @@ def _declared(name: str, index: str | None, value: Value | tuple[Value, ...]) ->
     if not items or any(texts) != all(texts):
         raise KeyError(f"{name}: an array has one or more values, all numbers or all texts")
     kind = "STRING" if texts[0] else "REAL64"
-    return Stored(value, (len(items),) if isinstance(value, tuple) else (), kind)
+    if isinstance(value, tuple):
+        return Stored(Elements.of(items), (len(items),), kind)
+    return Stored(value, (), kind)
 
 
 def _with_value(
@@ -69,7 +72,7 @@ def _with_value(
         items = tuple(fitted(name, held, item) for item in items)
     except Unfit as problem:
         raise KeyError(problem.message) from None
-    if not isinstance(held.value, tuple):
+    if not isinstance(held.value, Elements):
         if index is not None or isinstance(value, tuple):
             raise KeyError(f"{name} is no array")
         return replace(held, value=items[0])
@@ -80,4 +83,6 @@ def _with_value(
     first, size = int(index or 0), len(held.value)
     if first + len(items) > size:
         raise KeyError(f"{name} has the elements 0 to {size - 1}")
-    return replace(held, value=held.value[:first] + items + held.value[first + len(items) :])
+    values = list(held.value)
+    values[first : first + len(items)] = items
+    return replace(held, value=Elements.of(values))

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
 
+from ncscope.channel.elements import Elements
 from ncscope.channel.given import GivenRows
 from ncscope.contour import Turn
 from ncscope.coordinates import Coordinates
@@ -214,7 +215,7 @@ class Stored:
     variable of an outer level that this one hides.
     """
 
-    value: float | str | tuple[float | str, ...]
+    value: float | str | Elements[float | str]
     dimensions: tuple[int, ...] = ()
     type: str = "REAL64"
     length: int = 0

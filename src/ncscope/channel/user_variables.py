@@ -11,6 +11,7 @@ import math
 from dataclasses import replace
 
 from ncscope.channel.draft import Draft
+from ncscope.channel.elements import Elements
 from ncscope.channel.layered import with_value, without
 from ncscope.channel.state import Stored
 from ncscope.diagnostics import Span
@@ -58,7 +59,7 @@ def read(draft: Draft, node: Node, numbers: tuple[int, ...]) -> Value:
         draft.fail("20932", node.span, f"the variable {key} does not exist", _missing(key))
     if key.startswith("V.E."):
         _check_access(draft, key, "READ", node.span)
-    if isinstance(stored.value, tuple):
+    if isinstance(stored.value, Elements):
         return stored.value[_element(draft, key, stored, indices, node.span, reading=True)]
     _refuse_indices(draft, key, indices, node.span, reading=True)
     return stored.value
@@ -80,11 +81,10 @@ def write(draft: Draft, node: Node, numbers: tuple[int, ...], value: Value) -> N
     if key.startswith("V.E."):
         _check_access(draft, key, "WRITE", node.span)
     value = _fitting(draft, key, stored, value, node.span)
-    if isinstance(stored.value, tuple):
+    if isinstance(stored.value, Elements):
         element = _element(draft, key, stored, indices, node.span)
-        items = list(stored.value)
-        items[element] = value
-        return _store(draft, key, replace(stored, value=tuple(items)))
+        elements = stored.value.with_element(element, value)
+        return _store(draft, key, replace(stored, value=elements))
     _refuse_indices(draft, key, indices, node.span)
     return _store(draft, key, replace(stored, value=value))
 
@@ -173,7 +173,7 @@ def declare(
     empty = Stored(start, dimensions, kind, length, level, old if level else None)
     fitted = [_fitting(draft, key, empty, value, item.span) for value in values]
     filled = (*fitted, *([start] * (count - len(fitted))))
-    _store(draft, key, replace(empty, value=filled if dimensions else filled[0]))
+    _store(draft, key, replace(empty, value=Elements.of(filled) if dimensions else filled[0]))
 
 
 def delete(draft: Draft, node: Node, numbers: tuple[int, ...]) -> None:

@@ -12,12 +12,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from rich.console import Console
+    from rich.segment import Segment
     from rich.table import Table
 
     from ncscope.diagnostics import Diagnostic
 
 LONG_PROGRAM = 200_000
 """Characters from which a run shows its progress."""
+SHOWN_TOGETHER = 500
+"""Diagnostics that are printed in one go; one at a time takes ten times as long."""
 SHOWN_EVERY = 1000
 """Blocks between two looks at the progress."""
 
@@ -27,15 +30,29 @@ def show_diagnostics(items: Iterable[Diagnostic]) -> None:
     items = tuple(items)
     if not items:  # rich is not loaded for nothing
         return
+    from rich.segment import Segments
+
+    terminal = console(stderr=True)
+    for first in range(0, len(items), SHOWN_TOGETHER):
+        lines = _coloured(items[first : first + SHOWN_TOGETHER])
+        terminal.print(Segments(lines, new_lines=True), soft_wrap=True)
+
+
+def _coloured(items: Iterable[Diagnostic]) -> list[Segment]:
+    """The lines of diagnostics, each in the colour of its severity; nothing in them is markup."""
+    from rich.control import strip_control_codes
+    from rich.segment import Segment
+    from rich.style import Style
+
     from ncscope.diagnostics import render
 
     colours = {"error": "red", "warning": "yellow", "note": "cyan"}
-    terminal = console(stderr=True)
-    for item in items:
-        terminal.print(
-            render(item), style=colours[str(item.severity)], markup=False, highlight=False,
-            soft_wrap=True,
-        )  # fmt: skip
+    styles = {severity: Style(color=colour) for severity, colour in colours.items()}
+    return [
+        Segment(line, styles[str(item.severity)])
+        for item in items
+        for line in strip_control_codes(render(item)).expandtabs().split("\n")
+    ]
 
 
 def console(stderr: bool = False) -> Console:
@@ -44,7 +61,7 @@ def console(stderr: bool = False) -> Console:
 
     stream = sys.stderr if stderr else sys.stdout
     width = None if stream.isatty() else 200
-    return Console(stderr=stderr, width=width, highlight=False)
+    return Console(stderr=stderr, width=width, highlight=False, emoji=False)  # a.nc:100:3 is text
 
 
 def show_table(table: Table) -> None:
