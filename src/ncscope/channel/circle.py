@@ -115,7 +115,7 @@ def arc(draft: Draft, words: Words, centre: dict[int, Word], target: Array, span
     if pitch is not None:
         found = _with_turns(draft, found, pitch, words, target)
     memory = remembered(found, circle.start, draft.modes.centre_absolute)
-    draft.state = replace(draft.state, circle=memory)
+    draft.state = draft.state.changed(circle=memory)
     return found
 
 
