@@ -12,7 +12,7 @@ from collections.abc import Callable
 from ncscope.diagnostics import Span
 from ncscope.language.calls import call
 from ncscope.language.cursor import Cursor
-from ncscope.language.functions import FUNCTIONS
+from ncscope.language.dwell import ASSIGN, DWELL, EQUALS, dwell
 from ncscope.language.groups import groups
 from ncscope.language.terms import (
     close,
@@ -44,8 +44,6 @@ from ncscope.language.tree import (
 )
 from ncscope.language.vocabulary import axis_commands
 
-DWELL = 4
-"""The G function whose value may follow it without an address letter."""
 AXIS_LETTERS = frozenset("ABCQUVWXYZabcquvwxyz")
 _ADDRESSES = frozenset("DEFHIJKRTdefhijkrt")
 AXIS_COMMANDS = axis_commands()
@@ -60,9 +58,7 @@ _SIGNED_DWELL = re.compile(r"[Gg]0*4(?=[ \t\0\r]+[-+])")
 """G04 -1 is a time, not G3."""
 _LONG_NAME = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*=(?!=)", re.ASCII)
 _AXIS_COMMAND = re.compile(r"([A-Za-z]\w*)[ \t\0\r]*\[[ \t\0\r]*([A-Za-z]\w*)", re.ASCII)
-_ASSIGN = re.compile(r"[ \t\0\r]*([-+*/]?=)(?!=)")
-_NO_ASSIGNMENT = re.compile(r"[ \t\0\r]*([-+*/%&|^<>!:=]+)")
-_EQUALS = re.compile(r"[ \t\0\r]*=(?!=)")
+_NOASSIGNMENT = re.compile(r"[ \t\0\r]*([-+*/%&|^<>!:=]+)")
 _OPERATOR_END = re.compile(r"\s*[-+*/]?=\s*$")
 _SPINDLE = re.compile(r"[Ss](?:\.[A-Za-z_]\w*|\w+(?=[ \t\0\r]*=(?!=))|[0-9]+(?=[ \t\0\r]*\[))")
 _SPINDLE_BRACKET = re.compile(r"[Ss][ \t\0\r]*\[")
@@ -116,7 +112,7 @@ def _simple(cursor: Cursor, found: re.Match[str]) -> Word:
         return AxisWord(letter, number, sign, span)
     if letter in "Gg":
         if float(digits) == DWELL:
-            return _dwell(cursor, number, start)
+            return dwell(cursor, number, start)
         return GWord(number, None, None, span)
     if letter in "Mm":
         return MWord(number, (), span)
@@ -219,42 +215,18 @@ def _g_word(cursor: Cursor) -> GWord:
     start = cursor.at
     signed = cursor.match(_SIGNED_DWELL)
     if signed is not None:
-        return _dwell(cursor, Number(float(DWELL), cursor.span(start + 1)), start)
+        return dwell(cursor, Number(float(DWELL), cursor.span(start + 1)), start)
     _need_value(cursor)
     number = value(cursor)
     if isinstance(number, Number) and number.value == DWELL:
-        return _dwell(cursor, number, start)
-    content = value(cursor) if cursor.match(_EQUALS) else None
+        return dwell(cursor, number, start)
+    content = value(cursor) if cursor.match(EQUALS) else None
     after, arguments = cursor.at, None
     if cursor.skip() == "[":
         arguments = _places(cursor)
     else:
         cursor.at = after
     return GWord(number, content, arguments, cursor.span(start))
-
-
-def _dwell(cursor: Cursor, number: Expression, start: int) -> GWord:
-    """dwell = "G04" , [ [ "=" ] , expr ] ;  the time, where what follows is no other word"""
-    after = cursor.at
-    written = cursor.match(_EQUALS) is not None
-    cursor.skip()
-    if written or _starts_time(cursor):
-        return GWord(number, value(cursor), None, cursor.span(start))
-    cursor.at = after
-    return GWord(number, None, None, cursor.span(start))
-
-
-def _starts_time(cursor: Cursor) -> bool:
-    """Whether a value follows, and neither a word nor an assignment."""
-    if not starts_target(cursor):
-        named = cursor.char.isalpha()
-        known = cursor.word().upper() in FUNCTIONS
-        return starts_value(cursor) and (known or not named)
-    start = cursor.at
-    target(cursor)
-    found = cursor.looks_at(_ASSIGN) is None
-    cursor.at = start
-    return found
 
 
 def _places(cursor: Cursor) -> tuple[Expression | None, ...]:
@@ -293,7 +265,7 @@ def _address(cursor: Cursor) -> AddressWord:
     start = cursor.at
     letter = cursor.char.upper()
     cursor.at += 1
-    if cursor.match(_EQUALS) is None:
+    if cursor.match(EQUALS) is None:
         cursor.at = start
         _need_value(cursor)
     return AddressWord(letter, _value_after(cursor, start), cursor.span(start))
@@ -305,7 +277,7 @@ def _spindle(cursor: Cursor) -> Word:
     named = cursor.match(_SPINDLE)
     if named is None:
         return _spindle_bracket(cursor) or _address(cursor)
-    if cursor.match(_EQUALS):
+    if cursor.match(EQUALS):
         _value_after(cursor, start)
     elif cursor.skip() == "[":
         _skip_brackets(cursor)
@@ -333,7 +305,7 @@ def _assignment(cursor: Cursor) -> Assignment:
     """assign = target , ( "=" | "+=" | "-=" | "*=" | "/=" ) , expr ;"""
     start = cursor.at
     left = target(cursor)
-    found = cursor.match(_ASSIGN)
+    found = cursor.match(ASSIGN)
     if found is None:
         raise _not_assigned(cursor, left, start)
     if cursor.skip() == "" or (not starts_value(cursor) and not cursor.word()):
@@ -343,7 +315,7 @@ def _assignment(cursor: Cursor) -> Assignment:
 
 def _not_assigned(cursor: Cursor, left: Expression, start: int) -> Exception:
     name = cursor.code[start : cursor.at]
-    operator = cursor.looks_at(_NO_ASSIGNMENT)
+    operator = cursor.looks_at(_NOASSIGNMENT)
     if operator is not None:
         message = f"{operator.group(1)} does not assign a value to {name}."
         span = cursor.span(operator.start(1), operator.end())
@@ -365,7 +337,7 @@ def _macro(cursor: Cursor) -> Macro | MacroDefinition:
     """macro = string , [ "=" , string ] ;"""
     start = cursor.at
     name = string(cursor).value
-    if cursor.match(_EQUALS) is None:
+    if cursor.match(EQUALS) is None:
         return Macro(name, cursor.span(start))
     if cursor.skip() != '"':
         message = f"The text of the macro {name!r} must stand in quotation marks."
@@ -384,7 +356,7 @@ def _call(cursor: Cursor) -> Call:
 
 def _cycle_word(cursor: Cursor, letter: str, start: int) -> Word:
     """cycleword = "@" , ( "X" | "Y" | "Z" | "I" | "J" | "K" | "S" ) , [ "=" ] , value ;"""
-    cursor.match(_EQUALS)
+    cursor.match(EQUALS)
     sign = cursor.skip() if cursor.char in ("+", "-") else ""
     content = _value_after(cursor, start)
     name, span = f"@{letter.upper()}", cursor.span(start)
