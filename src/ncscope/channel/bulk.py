@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ncscope.channel.modulo import way_to
-from ncscope.channel.plain_arcs import arcs_among, with_circle
+from ncscope.channel.plain_arcs import ArcTerms, PlainArcs, arcs_among, radius_and_circle
 from ncscope.channel.state import Position, State
 from ncscope.compilation import compiled
 from ncscope.diagnostics import Source
@@ -43,6 +43,37 @@ class Taken(NamedTuple):
     more: bool
 
 
+class _Terms(NamedTuple):
+    """What plain words mean while coordinates, axes and modal functions stay.
+
+    factors (n,): millimetres or degrees of one programmed unit. ranges (n, 2): of modulo axes, NaN
+    for others. wraps: whether there are any. held: what this was made for.
+    """
+
+    factors: Array
+    ranges: Array
+    wraps: bool
+    arcs: ArcTerms | None
+    held: tuple[object, ...]
+
+    @classmethod
+    def of(cls, state: State, settings: ChannelSettings) -> _Terms:
+        n, active = len(state.axes), state.coordinates.kinematics
+        directions = () if active is None else active.model.orientation
+        ranges = np.full((n, 2), np.nan)
+        for axis, low, high in state.coordinates.modulo.ranges:
+            if axis not in directions:
+                ranges[axis] = low, high
+        wraps, factors = not np.isnan(ranges).all(), np.array([state.unit(i) for i in range(n)])
+        return cls(factors, ranges, wraps, ArcTerms.of(state, settings), _held(state))
+
+
+def _held(state: State) -> tuple[object, ...]:
+    modes = state.modal
+    rules = modes.plane, modes.inch, modes.centre_absolute, modes.centre_fits
+    return id(state.coordinates), id(state.axes), *rules
+
+
 class BulkLane:
     """Takes the plain blocks of one program."""
 
@@ -50,6 +81,7 @@ class BulkLane:
         self._source, self._settings = source, settings
         self._axes: tuple[Axis, ...] = ()
         self._scanner: Scanner | None = None
+        self._terms: tuple[_Terms, State] | None = None
 
     def take(self, reader: BlockReader, state: State, limit: int | None) -> Taken | None:
         """The plain blocks where the reader stands, at most `limit`; None where the next block is
@@ -59,7 +91,7 @@ class BulkLane:
         begin = reader.at
         rows = self._scanner_for(state).scan(begin, self._source.position(begin)[0])
         left = len(rows) if limit is None else min(len(rows), limit)
-        taken = advance(state, rows, self._source.name, left, self._settings) if left else None
+        taken = self._advance(state, rows, left) if left else None
         if taken is not None:
             n, first = len(taken.stretch), int(rows.line[0])
             reader.skip_to(int(rows.stops[n - 1]))
@@ -74,56 +106,52 @@ class BulkLane:
             self._scanner = Scanner(self._source.data, state.axis_names, turning)
         return self._scanner
 
+    def _terms_for(self, state: State) -> _Terms:
+        if self._terms is None or self._terms[0].held != _held(state):
+            terms = _Terms.of(state, self._settings)
+            self._terms = terms, state  # keeps what is known by its identity
+        return self._terms[0]
 
-def advance(
-    state: State, rows: PlainRows, file: str, n: int, settings: ChannelSettings
-) -> Taken | None:
-    """The first n rows; the stretch says how many were taken, None stands for none."""
-    motion = _filled_codes(rows.motion[:n], MOTIONS.index(state.modal.motion))
-    absolute = _filled_codes(rows.absolute[:n], int(state.modal.absolute))
-    feed = _filled_feed(state, rows.feed[:n])
-    n = _before_warning(state, motion, feed, n)
-    program, ways = _programmed(state, rows.values[:n], absolute[:n], settings.modulo_shortest)
-    found = arcs_among(state, settings, rows, motion[:n], program)
-    axes, n = _axes(state, program[: found.rows])
-    if n == 0:
-        return None
-    found = found.before(n)
-    stretch = Stretch(
-        state.coordinates,
-        state.axis_names,
-        file,
-        rows.line[:n].copy(),
-        rows.block[:n].copy(),
-        motion[:n],
-        feed[:n],
-        program[:n],
-        axes[:n],
-        state.position.axes,
-    )
-    turned = np.flatnonzero((ways[:n] != program[:n]).any(axis=1)) if ways is not program else ()
-    after = with_circle(_state_after(state, stretch, bool(absolute[n - 1])), state, found, program)
-    return Taken(after, stretch, {int(row): ways[row] for row in turned}, found.arcs, n == CHUNK)
+    def _advance(self, state: State, rows: PlainRows, n: int) -> Taken | None:
+        """The first n rows; the stretch says how many were taken, None stands for none."""
+        terms = self._terms_for(state)
+        motion = _filled_codes(rows.motion[:n], MOTIONS.index(state.modal.motion))
+        absolute = _filled_codes(rows.absolute[:n], int(state.modal.absolute))
+        feed = _filled_feed(state, rows.feed[:n])
+        n = _before_warning(state, motion, feed, n)
+        shortest = self._settings.modulo_shortest
+        program, ways = _programmed(terms, state, rows.values[:n], absolute[:n], shortest)
+        found = arcs_among(terms.arcs, state, rows, motion[:n], program)
+        axes, n = _axes(state, program[: found.rows])
+        if n == 0:
+            return None
+        found = found.before(n)
+        stretch = Stretch(
+            state.coordinates,
+            state.axis_names,
+            self._source.name,
+            rows.line[:n].copy(),
+            rows.block[:n].copy(),
+            motion[:n],
+            feed[:n],
+            program[:n],
+            axes[:n],
+            state.position.axes,
+        )
+        turned = np.flatnonzero((ways[:n] != program[:n]).any(axis=1)) if terms.wraps else ()
+        after = _state_after(state, stretch, bool(absolute[n - 1]), found)
+        return Taken(after, stretch, {int(r): ways[r] for r in turned}, found.arcs, n == CHUNK)
 
 
-def _programmed(state: State, values: Array, absolute, shortest: bool) -> tuple[Array, Array]:
+def _programmed(
+    terms: _Terms, state: State, values: Array, absolute, shortest: bool
+) -> tuple[Array, Array]:
     """Programmed values (m, n), and the same before modulo axes are wrapped."""
     program = np.empty((len(values), len(state.axes)))
-    active = state.coordinates.kinematics
-    directions = () if active is None else active.model.orientation
-    ranges = np.full((len(state.axes), 2), np.nan)
-    for axis, low, high in state.coordinates.modulo.ranges:
-        if axis not in directions:
-            ranges[axis] = low, high
-    ways = program if np.isnan(ranges).all() else np.empty_like(program)
+    ways = np.empty_like(program) if terms.wraps else program
     start = state.position.program
-    _fill_program(values, absolute, _factors(state), start, ranges, shortest, program, ways)
+    _fill_program(values, absolute, terms.factors, start, terms.ranges, shortest, program, ways)
     return program, ways
-
-
-def _factors(state: State) -> Array:
-    """Millimetres or degrees of one programmed unit, by channel axis."""
-    return np.array([state.unit(axis) for axis in range(len(state.axes))])
 
 
 def _filled_codes(codes, before: int):
@@ -162,17 +190,23 @@ def _axes(state: State, program: Array) -> tuple[Array, int]:
     return axes, n if finite.all() else int(np.argmin(finite.all(axis=1)))
 
 
-def _state_after(state: State, stretch: Stretch, absolute: bool) -> State:
-    feed = float(stretch.feed[-1])
-    block = int(stretch.block[-1])
+def _state_after(state: State, stretch: Stretch, absolute: bool, found: PlainArcs) -> State:
+    feed, block = float(stretch.feed[-1]), int(stretch.block[-1])
+    radius, circle = radius_and_circle(state, found, stretch.pcs)
     modal = replace(
         state.modal,
         motion=MOTIONS[stretch.motion[-1]],
         absolute=absolute,
         feed=None if np.isnan(feed) else feed,
+        radius=radius,
     )
-    position = Position(stretch.acs[-1].copy(), stretch.pcs[-1].copy())
-    return replace(state, modal=modal, position=position, block=None if block < 0 else block)
+    return replace(
+        state,
+        modal=modal,
+        position=Position(stretch.acs[-1].copy(), stretch.pcs[-1].copy()),
+        circle=circle,
+        block=None if block < 0 else block,
+    )
 
 
 @compiled

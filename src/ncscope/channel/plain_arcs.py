@@ -5,7 +5,6 @@ What the step lane would say something about is not taken: the stretch ends befo
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -47,9 +46,40 @@ class PlainArcs(NamedTuple):
         return PlainArcs(min(self.rows, row), arcs, self.radius[: len(arcs)])
 
 
+class ArcTerms(NamedTuple):
+    """What I, J, K and R mean while coordinates, axes and modal functions stay: channel indices of
+    the plane, millimetres of a unit, and the rules of `circle.about_centre`."""
+
+    first: int
+    second: int
+    third: int
+    first_unit: float
+    second_unit: float
+    length_unit: float
+    centre_absolute: bool
+    fits: bool
+    shift: float
+    shift_share: float
+    difference: float
+    difference_share: float
+
+    @classmethod
+    def of(cls, state: State, settings: ChannelSettings) -> ArcTerms | None:
+        """None where there can be no arcs in the plane: the step lane says why."""
+        first, second, third = state.main_axes
+        if state.coordinates.point_to_point or max(first, second) >= len(state.axes):
+            return None
+        factors = state.coordinates.contour.factors(len(state.axes))
+        if factors[first] != factors[second]:
+            return None
+        units = state.unit(first), state.unit(second), state.modal.length_factor
+        rules = state.modal.centre_absolute, state.modal.centre_fits
+        return cls(first, second, third, *units, *rules, *limits_of(settings))
+
+
 def arcs_among(
+    terms: ArcTerms | None,
     state: State,
-    settings: ChannelSettings,
     rows: PlainRows,
     motion: NDArray[np.int8],
     program: Array,
@@ -59,53 +89,41 @@ def arcs_among(
     m = len(program)
     circular, words = motion >= CLOCKWISE, rows.circular[:m] > 0
     count = int(np.count_nonzero(circular))
-    if count == 0 or not _possible(state):
+    if count == 0 or terms is None:
         other = circular | words
         return PlainArcs(int(np.argmax(other)) if other.any() else m)
-    first, second, third = state.main_axes
-    modes, units = state.modal, [state.unit(axis) for axis in (first, second)]
     row, values, radius = np.empty(count, np.int64), np.empty((count, 6)), np.empty(count)
-    stored = np.nan if modes.radius is None else modes.radius
+    stored = np.nan if state.modal.radius is None else state.modal.radius
     taken, count = _plain_arcs(
-        motion, rows.circular, rows.centre, state.position.program, program, first, second, third,
-        units[0], units[1], modes.length_factor, stored, modes.centre_absolute, modes.centre_fits,
-        *limits_of(settings), row, values, radius,
+        motion, rows.circular, rows.centre, state.position.program, program, stored, *terms,
+        row, values, radius,
     )  # fmt: skip
-    axes = np.tile(np.array([first, second]), (count, 1))
+    axes = np.empty((count, 2), np.int64)
+    axes[:] = terms.first, terms.second
     return PlainArcs(taken, Arcs(row[:count], axes, values[:count]), radius[:count])
 
 
-def _possible(state: State) -> bool:
-    """Whether there can be arcs in the plane; if not, the step lane says why."""
-    first, second, _ = state.main_axes
-    if state.coordinates.point_to_point or max(first, second) >= len(state.axes):
-        return False
-    factors = state.coordinates.contour.factors(len(state.axes))
-    return bool(factors[first] == factors[second])
-
-
-def with_circle(after: State, before: State, found: PlainArcs, program: Array) -> State:
-    """The state behind rows of plain blocks with the centre and radius of their last arc.
-
-    before: the state before them. program: (m, n) programmed values at their ends.
-    """
+def radius_and_circle(
+    state: State, found: PlainArcs, program: Array
+) -> tuple[float | None, tuple[float, float, float, float]]:
+    """What the arcs leave in the state: the radius for arcs without a centre, and what V.G.I to
+    V.G.R read. state: before the rows. program: (m, n) programmed values at their ends."""
     if not len(found.arcs):
-        return after
-    row = int(found.arcs.row[-1])
+        return state.modal.radius, state.circle
+    row, radius = int(found.arcs.row[-1]), float(found.radius[-1])
     last = found.arcs.at(row)
     assert last is not None
     first, second = last.axes
-    start = program[row - 1] if row else before.position.program
-    radius = float(found.radius[-1])
-    modal = replace(after.modal, radius=None if np.isnan(radius) else radius)
+    start = program[row - 1] if row else state.position.program
     begin = float(start[first]), float(start[second])
-    return replace(after, modal=modal, circle=remembered(last, begin, modal.centre_absolute))
+    circle = remembered(last, begin, state.modal.centre_absolute)
+    return None if np.isnan(radius) else radius, circle
 
 
 @compiled
 def _plain_arcs(
-    motion, circular, centre, start, program, first, second, third, first_unit, second_unit,
-    length_unit, radius, centre_absolute, fits, shift, shift_share, difference, difference_share,
+    motion, circular, centre, start, program, radius, first, second, third, first_unit, second_unit,
+    length_unit, centre_absolute, fits, shift, shift_share, difference, difference_share,
     rows, values, radii,
 ):  # fmt: skip
     """Rows that are plain, and the number of arcs among them."""
