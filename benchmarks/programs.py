@@ -3,8 +3,8 @@
 `write(kind, blocks, path)` writes a program with so many motion blocks. `five_axis` and
 `complete` differ in the machine only; `three_axis` runs under a zero offset and a turned
 coordinate system; `peers` is the five-axis program without the lines that other tools do not read.
-`contour` is 2.5-axis milling that every tool reads: half of its moves are arcs, and each contour
-of 50 moves begins with a comment and a coolant word.
+`contour` is 2.5-axis milling that every tool reads: half of its moves are arcs, each contour of 50
+moves begins with a comment, and every 40 contours there are a spindle and a coolant word.
 """
 
 from __future__ import annotations
@@ -53,4 +53,7 @@ def _contour_line(i: int) -> str:
         f"G1 X{x:.3f}\n",
         f"G3 X{x:.3f} Y{y:.3f} R4\n",
     )
-    return lines[(side - 1) % 4] if side else f"; contour {contour}\nG0 X{x:.3f} Y{y:.3f} M8\n"
+    if side:
+        return lines[(side - 1) % 4]
+    words = "S8000 M3\nM8\n" if contour % 40 == 0 else ""
+    return f"; contour {contour}\n{words}G0 X{x:.3f} Y{y:.3f}\n"

@@ -8,7 +8,6 @@ lane would say something about is cut off here and left to it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -94,7 +93,7 @@ class BulkLane:
         taken = self._advance(state, rows, left) if left else None
         if taken is not None:
             n, first = len(taken.stretch), int(rows.line[0])
-            reader.skip_to(int(rows.stops[n - 1]))
+            reader.skip_to(rows.end if n == len(rows) else int(rows.stops[n - 1]))
             if int(rows.line[n - 1]) - first == n - 1:  # no blank line between
                 self._source.learn(begin, rows.stops[:n], first)
         return taken
@@ -169,7 +168,7 @@ def _filled_feed(state: State, feed: Array) -> Array:
 
 def _before_warning(state: State, motion, feed: Array, n: int) -> int:
     """Rows before the first feed motion without a feed, of which the step lane warns once."""
-    if state.modal.feed_warned:
+    if state.modal.feed_warned or state.modal.feed is not None:
         return n
     bare = np.flatnonzero((motion[:n] != MOTIONS.index("G00")) & np.isnan(feed[:n]))
     return int(bare[0]) if len(bare) else n
@@ -193,15 +192,13 @@ def _axes(state: State, program: Array) -> tuple[Array, int]:
 def _state_after(state: State, stretch: Stretch, absolute: bool, found: PlainArcs) -> State:
     feed, block = float(stretch.feed[-1]), int(stretch.block[-1])
     radius, circle = radius_and_circle(state, found, stretch.pcs)
-    modal = replace(
-        state.modal,
+    modal = state.modal.changed(
         motion=MOTIONS[stretch.motion[-1]],
         absolute=absolute,
         feed=None if np.isnan(feed) else feed,
         radius=radius,
     )
-    return replace(
-        state,
+    return state.changed(
         modal=modal,
         position=Position(stretch.acs[-1].copy(), stretch.pcs[-1].copy()),
         circle=circle,

@@ -41,7 +41,7 @@ class PlainRows:
     line: from 1. block, motion (0 to 3), absolute (1 for G90, 0 for G91): -1 where not programmed.
     feed, values: NaN where not programmed. values: (rows, axes). circular: which of I, J, K and R
     are programmed, as bits 1, 2, 4 and 8; centre (rows, 4): their values there. stops: offset
-    behind each row.
+    behind each row. end: of the first line that is none of these, behind lines without words.
     """
 
     line: NDArray[np.int64]
@@ -53,6 +53,7 @@ class PlainRows:
     circular: NDArray[np.uint8]
     centre: NDArray[np.float64]
     stops: NDArray[np.int64]
+    end: int
 
     def __len__(self) -> int:
         return len(self.line)
@@ -85,7 +86,7 @@ class Scanner:
 
     def scan(self, offset: int, line: int) -> PlainRows:
         """The plain blocks from `offset`, which begins line `line`, up to CHUNK rows."""
-        count = _scan(
+        count, end = _scan(
             self.data, self._size, np.uint64(offset), line, self.columns, self._signed, _POWERS,
             self._line, self._block, self._codes, self._feed, self._values, self._circular,
             self._centre, self._stops,
@@ -100,6 +101,7 @@ class Scanner:
             self._circular[:count],
             self._centre[:count],
             self._stops[:count],
+            int(end),
         )
 
 
@@ -117,20 +119,22 @@ def _scan(
     data, size, at, line, columns, signed, powers, lines, blocks, codes, feeds, values, circular,
     centre, stops
 ):  # fmt: skip
-    """Rows read; a line without words between plain blocks belongs to the run. Each line before
-    `size` ends with a line feed, so that no loop below it needs another end."""
+    """Rows read, and the offset behind them; a line without words between plain blocks belongs to
+    the run. Each line before `size` ends with a line feed, so that no loop below it needs another
+    end."""
     count = _NONE
     while at < size and count < len(lines):
-        at, axes = _read_line(
+        stop, axes = _read_line(
             data, at, columns, signed, powers, blocks, codes, feeds, values, circular, centre, count
         )
-        if at == _NONE:
+        if stop == _NONE:
             break
+        at = stop
         if axes:
             lines[count], stops[count] = line, at
             count += _ONE
         line += 1
-    return count
+    return count, at
 
 
 @compiled
