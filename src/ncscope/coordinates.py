@@ -135,7 +135,7 @@ class Coordinates:
     def axes_from_mcs(self, mcs: ArrayLike, near: ArrayLike | None = None) -> Array:
         """Axis positions (..., n) for a tool tip (..., n) in the machine system."""
         position = np.asarray(mcs, dtype=float)
-        if self.tool_vector.any():
+        if self._tool_acts:
             position = position - self.tool_vector
         axes = self._solved(position, near)
         return self.modulo.wrap(axes if self.manual is None else axes + self._jogged)
@@ -254,6 +254,10 @@ class Coordinates:
             n = min(3, self.axis_count)
             vector[:n] = (self.mcs_frame.rotation @ _main_axes(vector))[:n]
         return vector
+
+    @cached_property
+    def _tool_acts(self) -> bool:
+        return bool(self.tool_vector.any())
 
     @cached_property
     def _own_tool_vector(self) -> Array:

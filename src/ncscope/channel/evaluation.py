@@ -164,13 +164,13 @@ def _find(draft: Draft, node: tree.Variable, numbers: tuple[int, ...]) -> tuple[
     key = ".".join(names)
     reference = Reference(node.span.text.strip(), numbers, node.span)
     if key.startswith("V.G.KIN[].") and len(numbers) >= 1:
-        return VARIABLES["V.G.KIN[].<field>"], replace(reference, field=_field(node, numbers))
+        return VARIABLES["V.G.KIN[].<field>"], reference._replace(field=_field(node, numbers))
     if key in VARIABLES:
         return _by_index(draft, key, reference)
     pattern = ".".join(names[:-1]) + ".<axis>"
     if pattern in VARIABLES and not node.parts[-1].indices:
         axis = draft.axis_index(node.parts[-1].name, node.span, "20092")
-        return VARIABLES[pattern], replace(reference, axis=axis)
+        return VARIABLES[pattern], reference._replace(axis=axis)
     group = word_entry(".".join(names[:2]).partition("[")[0] + ".")
     if group is not None and group.kind == "refused":
         draft.fail("N2001", node.span, f"{reference.text} is not supported ({group.purpose})")
@@ -186,7 +186,7 @@ def _by_index(draft: Draft, key: str, reference: Reference) -> tuple[Row, Refere
         axis = reference.numbers[-1]
         if not 0 <= axis < len(draft.state.axes):
             draft.fail("20092", reference.span, f"the channel has no axis with index {axis}")
-        return VARIABLES[key], replace(reference, axis=axis)
+        return VARIABLES[key], reference._replace(axis=axis)
     return VARIABLES[key], reference
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 
 from ncscope.channel.elements import Elements
 from ncscope.channel.state import Stored
@@ -75,7 +74,7 @@ def _with_value(
     if not isinstance(held.value, Elements):
         if index is not None or isinstance(value, tuple):
             raise KeyError(f"{name} is no array")
-        return replace(held, value=items[0])
+        return held._replace(value=items[0])
     if index is None and not isinstance(value, tuple):
         raise KeyError(f"{name} is an array: write {name}[0]=.. or {name}=[1,2]")
     if index is not None and isinstance(value, tuple):
@@ -85,4 +84,4 @@ def _with_value(
         raise KeyError(f"{name} has the elements 0 to {size - 1}")
     values = list(held.value)
     values[first : first + len(items)] = items
-    return replace(held, value=Elements.of(values))
+    return held._replace(value=Elements.of(values))

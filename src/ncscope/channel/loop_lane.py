@@ -247,7 +247,7 @@ def _state_after(state: State, loop: LoopState, program: Array, axes: Array) -> 
     for key, value in loop.v.items():
         old = variables[key]
         if old.value != value:
-            variables[key] = replace(old, value=value)
+            variables[key] = old._replace(value=value)
     modal = replace(
         state.modal, motion=MOTIONS[loop.motion], absolute=loop.absolute, feed=loop.feed
     )

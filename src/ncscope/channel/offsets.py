@@ -108,7 +108,7 @@ def select_tool(state: State, index: int, record: Tool, place: str) -> State:
     suspended = state.suspended
     if suspended is not None and not suspended.ex_tool:
         state = state.changed(suspended=replace(suspended, tool_acts=True))
-    tool = replace(state.tool, record_index=index, record=record, selected_at=place)
+    tool = state.tool.changed(record_index=index, record=record, selected_at=place)
     return with_tool(state, tool)
 
 

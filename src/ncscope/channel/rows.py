@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from ncscope.channel.draft import Draft
@@ -12,8 +11,7 @@ from ncscope.diagnostics import Span
 Value = float | str
 
 
-@dataclass(frozen=True, slots=True)
-class Reference:
+class Reference(NamedTuple):
     """A variable with its indices evaluated: what a table row reads or writes.
 
     numbers: all indices from left to right. axis: channel index where the variable names one.

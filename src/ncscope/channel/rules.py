@@ -143,7 +143,7 @@ def _tool(draft: Draft, words: Words) -> None:
     place = words.addresses.pop("T", None)
     record = words.addresses.pop("D", None)
     if place is not None:
-        tool = replace(draft.state.tool, place=round(place[0]))
+        tool = draft.state.tool.changed(place=round(place[0]))
         draft.state = draft.state.changed(tool=tool)
         if draft.machine.settings.tool_with_t and record is None:
             record = place

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 from ncscope.channel.elements import Elements
 from ncscope.channel.given import GivenRows
@@ -109,8 +109,8 @@ class NamedSystem:
     origin: str
 
 
-@dataclass(frozen=True, slots=True)
-class SelectedTool:
+@dataclass(frozen=True)
+class SelectedTool(Changing):
     """The tool that acts: T and D words, and the record with what the program wrote into it.
 
     correction: mm that #TLC adds to the length; correction_at: its place, None when it is off.
@@ -207,8 +207,7 @@ class Measuring:
     must_answer: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Stored:
+class Stored(NamedTuple):
     """One user variable: a number, a text, or an array with its dimensions.
 
     length: of a STRING. level: the program level that declared a V.L or V.CYC variable; outer: the

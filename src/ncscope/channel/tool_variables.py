@@ -160,7 +160,7 @@ def _of_selected(field: Field) -> Row:
         tool = draft.state.tool
         assert field.write is not None
         record = field.write(draft, ref, tool.record, value)
-        written = replace(tool, record=record, selected_at=draft.place)
+        written = tool.changed(record=record, selected_at=draft.place)
         draft.state = offsets.with_tool(draft.state, written)
 
     return Row(

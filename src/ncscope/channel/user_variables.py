@@ -8,7 +8,6 @@ Source: TF5200 programming manual, variables; TF5200 external variables (P-EXTV)
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from ncscope.channel.draft import Draft
 from ncscope.channel.elements import Elements
@@ -84,9 +83,9 @@ def write(draft: Draft, node: Node, numbers: tuple[int, ...], value: Value) -> N
     if isinstance(stored.value, Elements):
         element = _element(draft, key, stored, indices, node.span)
         elements = stored.value.with_element(element, value)
-        return _store(draft, key, replace(stored, value=elements))
+        return _store(draft, key, stored._replace(value=elements))
     _refuse_indices(draft, key, indices, node.span)
-    return _store(draft, key, replace(stored, value=value))
+    return _store(draft, key, stored._replace(value=value))
 
 
 def _missing(key: str) -> str:
@@ -173,7 +172,7 @@ def declare(
     empty = Stored(start, dimensions, kind, length, level, old if level else None)
     fitted = [_fitting(draft, key, empty, value, item.span) for value in values]
     filled = (*fitted, *([start] * (count - len(fitted))))
-    _store(draft, key, replace(empty, value=Elements.of(filled) if dimensions else filled[0]))
+    _store(draft, key, empty._replace(value=Elements.of(filled) if dimensions else filled[0]))
 
 
 def delete(draft: Draft, node: Node, numbers: tuple[int, ...]) -> None:

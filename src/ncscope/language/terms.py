@@ -70,6 +70,8 @@ _STRING = re.compile(r'"((?:\\"|[^"])*)"')
 _PARAMETER = re.compile(r"[Pp](?=[0-9]|\[|[Pp][0-9\[])")
 _DIGITS = re.compile(r"[0-9]+")
 _VARIABLE = re.compile(r"[Vv](?=\.[^\W0-9]|\.@)")
+_PLAIN_VARIABLE = re.compile(r"[Vv]\.[^\W0-9]\w*(?:\.\w+)*(?![\w.\[])")
+"""A variable without indices."""
 _CYCLE = re.compile(r"@[Pp](?=[0-9]|\[)")
 _TARGET = re.compile("|".join(p.pattern for p in (_PARAMETER, _VARIABLE, _CYCLE)))
 _PART = re.compile(r"\.(@?\w+)")
@@ -301,6 +303,10 @@ def _parameter_number(cursor: Cursor) -> Expression:
 def _variable(cursor: Cursor) -> Variable:
     """variable = "V" , { "." , name , { "[" , expr , { "," , expr } , "]" } } ;"""
     start = cursor.at
+    plain = cursor.match(_PLAIN_VARIABLE)
+    if plain is not None:
+        names = plain.group().split(".")
+        return Variable(tuple(Part(name, ()) for name in names), cursor.span(start))
     found = cursor.match(_VARIABLE)
     if found is None:
         raise cursor.mistake("20394", "A variable or parameter was expected.")

@@ -39,11 +39,11 @@ def on(draft: Draft, command: tree.HashCommand) -> None:
     length = evaluate_number(draft, places[0]) * draft.modes.length_factor
     id = draft.state.kinematics.ids[0]
     if id == 0:
-        tool = replace(tool, correction=length, correction_at=draft.place)
+        tool = tool.changed(correction=length, correction_at=draft.place)
         draft.state = offsets.with_tool(draft.state, tool)
         return
     step = ActiveLengthCorrection(_along_the_tool(draft, command, id, length), draft.place)
-    draft.state = draft.state.changed(tool=replace(tool, correction_at=draft.place))
+    draft.state = draft.state.changed(tool=tool.changed(correction_at=draft.place))
     draft.set_coordinates(replace(draft.state.coordinates, length_step=step), command.span)
 
 
@@ -64,7 +64,7 @@ def _along_the_tool(
 
 def off(draft: Draft, command: tree.HashCommand) -> None:
     """#TLC OFF"""
-    tool = replace(draft.state.tool, correction=0.0, correction_at=None)
+    tool = draft.state.tool.changed(correction=0.0, correction_at=None)
     if draft.state.coordinates.length_step is not None:
         coordinates = replace(draft.state.coordinates, length_step=None)
         draft.set_coordinates(coordinates, command.span)
