@@ -125,8 +125,8 @@ def _circle(draft: Draft, target: Array, span: Span) -> _Circle:
     if max(first, second) >= len(state.axes):
         has = " ".join(state.axis_names)
         draft.fail("20010", span, f"the plane of the arc needs two axes; the channel has {has}")
-    factors = state.coordinates.contour.factors(len(state.axes))
-    if factors[first] != factors[second]:
+    scale = state.coordinates.contour.scale
+    if scale.get(first, 1.0) != scale.get(second, 1.0):
         what = "an arc needs the same scale factor (#SCALE) for both axes of its plane"
         draft.fail("N2020", span, what)
     start = state.position.program

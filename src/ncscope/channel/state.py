@@ -17,6 +17,7 @@ from ncscope.machine import Axis, Tool, TransformationStack, ZeroOffsets
 
 PROGRAM_STEP = -1
 """Stands for the PCS transformation where the kinematic steps are numbered 0 and 1."""
+_PLANES = {17: (0, 1, 2), 18: (2, 0, 1), 19: (1, 2, 0)}
 INCH = 25.4
 """Millimetres of an inch (G70)."""
 
@@ -332,7 +333,7 @@ class State(Changing):
     @property
     def main_axes(self) -> tuple[int, int, int]:
         """Channel indices of the first, second and third axis of the plane."""
-        return {17: (0, 1, 2), 18: (2, 0, 1), 19: (1, 2, 0)}[self.modal.plane]
+        return _PLANES[self.modal.plane]
 
     def unit(self, axis: int) -> float:
         """Mm or degrees of one programmed unit; a word of a direction in space has no unit."""

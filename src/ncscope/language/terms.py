@@ -56,6 +56,7 @@ _OPERATOR = re.compile(
     r"[ \t\0\r]*(\*\*(?!=)|&&|\|\||[=!<>]=|[-+*/](?!=)|[&|^>]|<(?!>)|(?:MOD|XOR)(?!\w))",
     re.IGNORECASE,
 )
+_ENDS = frozenset(("", ",", "]"))
 CONTINUED = "a backslash at the end of a line joins the next line to it"
 WORD_OPERATORS = {"AND": "&& (or & for bits)", "OR": "|| (or | for bits)", "<>": "!="}
 _WORD_OPERATOR = re.compile(r"[ \t\0\r]+(AND|OR)(?![\w=])|[ \t\0\r]*(<>)", re.IGNORECASE)
@@ -68,6 +69,8 @@ _NUMBER_ALONE = re.compile(
 """A number behind which the expression ends: most expressions are no more."""
 _STRING = re.compile(r'"((?:\\"|[^"])*)"')
 _PARAMETER = re.compile(r"[Pp](?=[0-9]|\[|[Pp][0-9\[])")
+_PLAIN_PARAMETER = re.compile(r"[Pp]([0-9]+)(?![0-9\[])")
+"""A parameter without indices."""
 _DIGITS = re.compile(r"[0-9]+")
 _VARIABLE = re.compile(r"[Vv](?=\.[^\W0-9]|\.@)")
 _PLAIN_VARIABLE = re.compile(r"[Vv]\.[^\W0-9]\w*(?:\.\w+)*(?![\w.\[])")
@@ -133,6 +136,8 @@ def _binary(cursor: Cursor, lowest: int) -> Expression:
 
 def _operator(cursor: Cursor) -> re.Match[str] | None:
     """The operator behind a term; a word that other languages have for one is a mistake."""
+    if cursor.char in _ENDS:
+        return None
     found = cursor.looks_at(_OPERATOR)
     if found is None and (other := cursor.looks_at(_WORD_OPERATOR)) is not None:
         name = other.group(other.lastindex or 0).upper()
@@ -281,6 +286,10 @@ def string(cursor: Cursor) -> Text:
 def target(cursor: Cursor) -> Variable | Parameter | CycleParameter:
     """target = parameter | cycle parameter | variable ;"""
     start = cursor.at
+    plain = cursor.match(_PLAIN_PARAMETER)
+    if plain is not None:
+        number = _literal(cursor, plain.group(1), start + 1)
+        return Parameter(number, (), cursor.span(start))
     if cursor.match(_PARAMETER):
         return Parameter(_parameter_number(cursor), _indices(cursor), cursor.span(start))
     if cursor.match(_CYCLE):
