@@ -61,7 +61,7 @@ class InBackground:
 
     def finish(self, result: Trajectory | None, ok: bool) -> None:
         try:
-            while self._waiting:
+            while self._waiting and result is not None:  # else broken off: nobody waits for more
                 self._waiting.popleft().result()
         finally:
             self._thread.shutdown(cancel_futures=True)
