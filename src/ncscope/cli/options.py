@@ -77,9 +77,11 @@ BlocksOption = Annotated[
     int, typer.Option("--max-blocks", min=0, help="Stop after so many blocks; 0: no limit.")
 ]
 SampleOption = Annotated[
-    float,
+    float | None,
     typer.Option(
-        "--sample", help="Chord error of arcs and turns, mm and degrees; 0 for block ends only."
+        "--sample",
+        help="Chord error of arcs and turns, mm and degrees; 0 for block ends only. 0.02 without "
+        "this option, 0.1 for a program above 4 MB.",
     ),
 ]
 FINE_SAMPLE = 0.02
@@ -97,8 +99,17 @@ def read_levels(text: str) -> frozenset[int]:
     return levels
 
 
-def read_sample(tolerance: float) -> float | None:
-    """The tolerance for points along the moves, None for 0; ends the process for a wrong one."""
+COARSE_SAMPLE, LONG_PROGRAM = 0.1, 4_000_000
+"""The same for a program of so many bytes, of which a picture shows a contour as a dot: a million
+arcs drawn finely are 30 million points."""
+
+
+def read_sample(tolerance: float | None, program: Path) -> float | None:
+    """The tolerance for points along the moves of a picture, None for block ends only; ends the
+    process for a wrong one."""
+    if tolerance is None:
+        long = program.is_file() and program.stat().st_size > LONG_PROGRAM
+        return COARSE_SAMPLE if long else FINE_SAMPLE
     from ncscope.motion.sampling import FINEST
 
     if tolerance != 0 and not tolerance >= FINEST:

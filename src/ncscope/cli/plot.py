@@ -14,7 +14,6 @@ from ncscope.cli.inputs import Inputs, read_inputs, read_machine
 from ncscope.cli.kin_options import finite_length
 from ncscope.cli.kinematics import chosen_id, kinematics_of_any_step
 from ncscope.cli.options import (
-    FINE_SAMPLE,
     AnswerOptions,
     BlocksOption,
     MachineOptions,
@@ -50,7 +49,7 @@ def plot_command(
     start: StartOptions,
     answers: AnswerOptions,
     max_blocks: BlocksOption = 0,
-    sample: SampleOption = FINE_SAMPLE,
+    sample: SampleOption = None,
 ) -> None:
     """Draw the path of a program with its axes, or the chain of a machine."""
     form = _picture_form(out)
@@ -59,7 +58,7 @@ def plot_command(
         return
     check_target(out, program, *setup.files, *answers.files)
     inputs = read_inputs(
-        program, setup, start, answers, max_blocks=max_blocks, sample=read_sample(sample)
+        program, setup, start, answers, max_blocks=max_blocks, sample=read_sample(sample, program)
     )
     result = inputs.run()
     write_document(out, _path_picture(inputs, result, program, form))

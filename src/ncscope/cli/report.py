@@ -12,7 +12,6 @@ from ncscope.cli.files import check_target, write_document
 from ncscope.cli.groups import with_groups
 from ncscope.cli.inputs import read_inputs
 from ncscope.cli.options import (
-    FINE_SAMPLE,
     AnswerOptions,
     BlocksOption,
     MachineOptions,
@@ -44,7 +43,7 @@ def report_command(
     start: StartOptions,
     answers: AnswerOptions,
     max_blocks: BlocksOption = 0,
-    sample: SampleOption = FINE_SAMPLE,
+    sample: SampleOption = None,
 ) -> None:
     """Write a run as one document that opens without a network."""
     if out.suffix.lower() != ".html":
@@ -55,7 +54,7 @@ def report_command(
     from ncscope.views.report import Subject, report_page
 
     inputs = read_inputs(
-        program, setup, start, answers, max_blocks=max_blocks, sample=read_sample(sample)
+        program, setup, start, answers, max_blocks=max_blocks, sample=read_sample(sample, program)
     )
     result = inputs.run()
     subject = Subject(
