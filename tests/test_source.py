@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ncscope.diagnostics import Source
-from ncscope.execution import Options, run
+from ncscope.execution import Options, Program, run
 from ncscope.language import iterate_blocks
 from ncscope.loading import load_program
 from ncscope.machine import Machine
@@ -69,3 +69,13 @@ def test_what_a_reader_of_lines_knows_is_what_counting_finds(lengths, data):
         source.position(data.draw(st.integers(0, start)))
         source.learn(start, np.array(ends[first : last + 1]), first + 1)
         assert source.position(offset)[0] == text.count("\n", 0, offset) + 1
+
+
+def test_lines_before_the_first_plain_block_are_counted_too():
+    """A head of comments that is longer than the piece whose lines are counted together."""
+    head = "".join(f"({'x' * 90} {line})\n" for line in range(1, 61))
+    source = Source("part.nc", head + "G1 F100 X1\nX2\nX3\nM30\n")
+    run(Machine(), Program(source), Options(bulk=True)).check()
+    for line in (1, 30, 60):
+        assert source.position(source.content.index(f" {line})"))[0] == line
+        assert source.line_text(line).endswith(f" {line})")

@@ -145,6 +145,17 @@ def test_output_on_a_full_disk_is_said_in_one_line(program, shape):
     assert "Traceback" not in done.stderr
 
 
+def test_a_reader_who_has_seen_enough_is_no_error(program):
+    """More than a pipe holds, of which one line is read."""
+    command = [sys.executable, *CODE, "run", str(program), "-m", HEAD, "--format", "csv"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child:
+        assert child.stdout is not None and child.stderr is not None
+        child.stdout.readline()
+        child.stdout.close()
+        said = child.stderr.read()
+    assert (child.returncode, b"Traceback" in said) == (0, False), said
+
+
 def test_a_process_without_standard_output_ends_well(program, tmp_path):
     out = tmp_path / "out.csv"
     command = [sys.executable, *CODE, "run", str(program), "-m", HEAD, "--out", str(out)]

@@ -265,6 +265,20 @@ def test_a_circle_in_a_turned_system(sample):
     assert "blocks" not in next(d for d in result.diagnostics if d.id == "N4101").message
 
 
+@pytest.mark.parametrize("rise", [10.0, -12.0, 200.0])
+def test_a_helix_whose_axis_is_tilted(rise):
+    # One turn of radius 10 about (-10, 0) in a system tilted by 30 degrees about X: at the angle t
+    # Y stands at 10 sin(t) cos(30) - rise t / 360 sin(30). It turns back where the derivative is
+    # 0: cos(t) = rise tan(30) / (20 pi), which is never so for a rise of 200.
+    text = f"#CS ON [0,0,0,30,0,0]\nG00 X0 Y0 Z0\nG03 I-10 Z{rise:g} F100\n#CS OFF\nM30\n"
+    y = next(t for t in ncscope.inspect(ncscope.run(MACHINE, text)).travel if t.axis.name == "Y")
+    cosine, reached = rise * np.tan(np.radians(30)) / (20 * np.pi), [0.0, -rise / 2]
+    if abs(cosine) < 1:
+        for t in (np.arccos(cosine), 2 * np.pi - np.arccos(cosine)):
+            reached.append(10 * np.sin(t) * np.sqrt(3) / 2 - rise * t / (4 * np.pi))
+    assert (y.low, y.high) == pytest.approx((min(reached), max(reached)), abs=1e-9)
+
+
 def test_an_arc_under_a_transformation():
     text = "#TRAFO [91]\nG00 X-10 Y0 C0 A0\nG02 X10 Y0 I10 J0 F100\n#TRAFO OFF\nM30\n"
     result = ncscope.run(limited(Y=(-1.0, 9.5)), text)

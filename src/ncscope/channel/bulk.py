@@ -88,13 +88,14 @@ class BulkLane:
         if not state.modal.plain:
             return None
         begin = reader.at
-        rows = self._scanner_for(state).scan(begin, self._source.position(begin)[0])
+        first = self._source.position(begin)[0]
+        rows = self._scanner_for(state).scan(begin, first)
         left = len(rows) if limit is None else min(len(rows), limit)
         taken = self._advance(state, rows, left) if left else None
         if taken is not None:
-            n, first = len(taken.stretch), int(rows.line[0])
+            n = len(taken.stretch)
             reader.skip_to(rows.end if n == len(rows) else int(rows.stops[n - 1]))
-            if int(rows.line[n - 1]) - first == n - 1:  # no blank line between
+            if int(rows.line[n - 1]) - first == n - 1:  # every line is a row
                 self._source.learn(begin, rows.stops[:n], first)
         return taken
 

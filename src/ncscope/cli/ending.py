@@ -44,6 +44,8 @@ def _code_of(work: Callable[[], None]) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except SystemExit as end:
+        if isinstance(end.__context__, BrokenPipeError):  # typer makes it an error
+            raise end.__context__ from None
         return end.code if isinstance(end.code, int) else int(end.code is not None)
     return 0
 

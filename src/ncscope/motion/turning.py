@@ -44,7 +44,7 @@ def turning_points(coordinates: Coordinates, paths: Paths, near: Array) -> Turni
         return None
     n, paths = coordinates.axis_count, paths.under(coordinates)
     slopes = coordinates.to_mcs(np.eye(n)) - coordinates.to_mcs(np.zeros(n))
-    place, share = _shares(paths.arcs, slopes[:, :3])
+    place, share = _shares(paths.arcs, slopes[:, :3], _beside(paths) @ slopes[:, :3])
     if coordinates.kinematics is not None:
         even = np.arange(1, EVEN_POINTS) / EVEN_POINTS
         place = np.append(place, np.repeat(np.arange(len(paths.arcs)), len(even)))
@@ -63,22 +63,39 @@ def turning_points(coordinates: Coordinates, paths: Paths, near: Array) -> Turni
     return TurningPoints(row, np.concatenate(acs))
 
 
-def _shares(arcs: Arcs, slopes: Array) -> tuple[NDArray[np.int64], Array]:
+def _beside(paths: Paths) -> Array:
+    """(k, n) how far the axes outside of its plane go on each arc: straight, as on a helix."""
+    arcs = paths.arcs
+    way = paths.end[arcs.row] - paths.start[arcs.row]
+    way[np.arange(len(arcs))[:, None], arcs.axes] = 0.0
+    return way
+
+
+def _shares(arcs: Arcs, slopes: Array, beside: Array) -> tuple[NDArray[np.int64], Array]:
     """Arcs (k,) and shares (k,) of them, ends left out, at which a main axis turns back.
 
-    slopes: (n, 3) how far the main axes go for one millimetre of each programmed axis.
+    slopes: (n, 3) how far the main axes go for one millimetre of each programmed axis. beside:
+    (k, 3) how far each arc takes them straight on: where that is not 0, an axis turns back later
+    or earlier than at its farthest point of the circle, by the same angle before each half turn
+    and behind the next; or never, where it is faster than the circle.
     """
     plane, (begin, sweep) = arcs.axes, arcs.values[:, 2:4].T
     low = np.minimum(begin, begin + sweep)
-    most = np.ceil(np.abs(sweep) / math.pi).astype(np.int64) + 1
+    most = np.ceil(np.abs(sweep) / math.pi).astype(np.int64) + 3
     place = np.repeat(np.arange(len(arcs)), most)
     half_turn = np.arange(len(place)) - np.repeat(np.cumsum(most) - most, most)
     places, shares = [], []
-    for along, across in zip(slopes[plane[:, 0]].T, slopes[plane[:, 1]].T, strict=True):
+    ways = zip(slopes[plane[:, 0]].T, slopes[plane[:, 1]].T, beside.T, strict=True)
+    for along, across, straight in ways:
+        size = np.hypot(along, across)
+        with np.errstate(all="ignore"):  # NaN where the axis never turns back
+            later = np.arcsin(straight / (arcs.radius * size * sweep))
         farthest = np.arctan2(across, along)
-        first = farthest + np.ceil((low - farthest) / math.pi) * math.pi
-        share = (first[place] + half_turn * math.pi - begin[place]) / sweep[place]
-        inside = (share > 0.0) & (share < 1.0) & (np.hypot(along, across) > SMALLEST)[place]
+        first = np.ceil((low - farthest) / math.pi) - 1
+        turn = first[place] + half_turn
+        angle = farthest[place] + turn * math.pi + np.where(turn % 2, -1.0, 1.0) * later[place]
+        share = (angle - begin[place]) / sweep[place]
+        inside = (share > 0.0) & (share < 1.0) & (size > SMALLEST)[place]
         places.append(place[inside])
         shares.append(share[inside])
     return np.concatenate(places), np.concatenate(shares)
