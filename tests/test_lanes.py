@@ -279,6 +279,17 @@ def test_free_axes_continue_from_row_to_row_in_both_lanes():
     np.testing.assert_allclose(turning, np.repeat([expected], 3, axis=0).T, atol=1e-9)
 
 
+def test_a_rounding_behind_a_long_run_begins_where_the_run_was_cut():
+    """The last block of 5000 ends 1 mm before X10, and the rounding has the points of a quarter
+    circle alone: the tool is vertical and no axis jumps."""
+    rows = "".join(f"X{i % 2}\n" for i in range(5000))
+    text = f"#KIN ID [91]\n#TRAFO ON\nG1 F100 X0 Y0\n{rows}X10\nG302 I1\nY10\nM30\n"
+    assert_equal(CA_HEAD, text, sample=0.5)
+    result = ncscope.run(CA_HEAD, text, Options(bulk=True, sample=0.5)).check()
+    before, corner = result.stretches[-2:]
+    assert before.pcs[-1, 0] == 9.0 and corner.start.tolist() == before.acs[-1].tolist()
+
+
 @settings(max_examples=60, deadline=None)
 @given(st.lists(st.one_of(PLAIN, PLAIN, SYSTEMS), min_size=1, max_size=14))
 def test_lanes_agree_on_coordinate_systems(lines):

@@ -37,10 +37,10 @@ class Transitions:
         if self.waiting is not None and moves:
             chain = moves[0].coordinates or coordinates
             try:
-                moves = (*self._joined(moves[0], self.waiting, chain), *moves[1:])
+                first, *rest = self._joined(moves[0], self.waiting, chain)
             except CornerError as error:
                 return (diagnostic(error.id, self.waiting.span, error.message, error.hint),)
-            self.waiting = None
+            self.waiting, start, moves = None, first.axes, (*rest, *moves[1:])
         for move in moves:
             before = start if len(start) == len(move.axes) else move.axes
             self.recorder.add(move.coordinates or coordinates, axes, move, before)
@@ -69,13 +69,13 @@ class Transitions:
         return (diagnostic("20351", self.waiting.span, what),)
 
     def _joined(self, second: Move, corner: Corner, chain: Coordinates) -> tuple[Move, ...]:
-        """What takes the place of the second move; the first one is shortened where it stands."""
+        """The first move, shortened where it stands, and what takes the place of the second."""
         last = self.recorder.last()
         assert last is not None
         first, before = last
         if before is not chain or len(first.program) != len(second.program):
             what = "offsets, coordinate system or axes change between the motions of this corner"
             raise CornerError("N2034", what, "change them before the first or after the second")
-        first, *rest = join(first, second, corner, chain)
-        self.recorder.replace_last(first)
-        return tuple(rest)
+        moves = join(first, second, corner, chain)
+        self.recorder.replace_last(moves[0])
+        return moves
