@@ -34,6 +34,16 @@ def test_a_run_in_a_loop_is_passed_again(stepped):
     assert result.line[-1] == 73 and result.block[-1] == 700
 
 
+def test_a_run_with_a_block_for_the_step_lane_is_read_on_from_there():
+    """The file begins with a byte order mark before a subprogram; the third arc is corrected by
+    more than a part of its radius, which the step lane says."""
+    arcs = "G2 X2 I1\nG2 X2 I1\nG2 X2 I1.1\nG2 X2 I1\n"
+    text = f"\xef\xbb\xbf%L SUB\nM17\n%MAIN\nG91 G1 F100 X0\nP1=0\n$IF P1==0\n{arcs}$ENDIF\nM30\n"
+    result = both(text)
+    assert [d.id for d in result.diagnostics] == ["N2030"]
+    assert result.acs[-1, 0] == 8.0
+
+
 def test_a_run_in_a_subprogram_file_knows_its_lines():
     text = "G91 G1 F100\nL part.nc\nL part.nc\nM30\n"
     files = {"part.nc": f"%PART\n{STEPS}M17\n"}

@@ -102,11 +102,12 @@ class BlockReader:
     def __iter__(self) -> Iterator[tuple[Block, Diagnostics]]:
         source, declaring = self.source, False
         pending: Diagnostics = ()
-        mark = next((m for m in _BYTE_ORDER_MARKS if source.part(0, 3).startswith(m)), "")
-        if mark:
-            pending, self.at = (_byte_order_mark(source),), len(mark)
-        elif _has_no_line_end(source):
-            pending = (_no_line_end(source),)
+        if self.at == 0:  # else the beginning was read by somebody else
+            mark = next((m for m in _BYTE_ORDER_MARKS if source.part(0, 3).startswith(m)), "")
+            if mark:
+                pending, self.at = (_byte_order_mark(source),), len(mark)
+            elif _has_no_line_end(source):
+                pending = (_no_line_end(source),)
         while self.at < len(source):
             block, found, self.at = parse_block(source, self.at, declarations=declaring)
             if block is None:
