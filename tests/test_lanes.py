@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import ncscope
 from ncscope.execution import Options
 from ncscope.inspection import inspect
+from ncscope.language.scanner import Scanner
 from ncscope.machine import Axis, Machine, OffsetRecord, ZeroOffsets
 
 MACHINES = Path(__file__).parents[1] / "examples" / "machines"
@@ -329,3 +330,19 @@ def test_plain_blocks_do_take_the_bulk_lane(stepped):
     assert stepped == [202]
     assert result.pcs[200, :2].tolist() == [199.5, -199.0]
     assert result.line[200] == 201
+
+
+def test_blocks_for_the_step_lane_are_not_scanned_again_and_again(monkeypatch):
+    """Each of these blocks is plain to the scanner, and the step lane warns of each."""
+    scanned, scan = [], Scanner.scan
+
+    def counted(self, *arguments):
+        rows = scan(self, *arguments)
+        scanned.append(len(rows))
+        return rows
+
+    monkeypatch.setattr(Scanner, "scan", counted)
+    text = "G1 F100 X0\n" + "".join(f"G1 X{i} I2\n" for i in range(1000)) + "M30\n"
+    result = ncscope.run(FLAT, text, Options(bulk=True))
+    assert len(result) == 1001 and len(result.diagnostics) == 1000
+    assert sum(scanned) < 5 * len(result)

@@ -27,6 +27,13 @@ from ncscope.motion import MOTIONS
 from ncscope.motion.arcs import Arcs
 from ncscope.trajectory import Stretch
 
+FEWEST = 64
+"""Rows that are scanned at least."""
+WORTH = 8
+"""Rows that are taken faster together than one by one."""
+MOST_VAIN = 6
+"""So many attempts in vain double the number of blocks that are left to the step lane."""
+
 
 class Taken(NamedTuple):
     """Some plain blocks: their moves and the state behind them.
@@ -39,7 +46,7 @@ class Taken(NamedTuple):
     stretch: Stretch
     ways: Mapping[int, Array]
     arcs: Arcs
-    more: bool
+    more: bool = False
 
 
 class _Terms(NamedTuple):
@@ -81,23 +88,40 @@ class BulkLane:
         self._axes: tuple[Axis, ...] = ()
         self._scanner: Scanner | None = None
         self._terms: tuple[_Terms, State] | None = None
+        self._most, self._pause, self._vain = CHUNK, 0, 0
 
     def take(self, reader: BlockReader, state: State, limit: int | None) -> Taken | None:
         """The plain blocks where the reader stands, at most `limit`; None where the next block is
         for the step lane. The reader goes on behind them."""
-        if not state.modal.plain:
+        if not state.modal.plain or self._pauses():
             return None
-        begin = reader.at
+        begin, most = reader.at, self._most
         first = self._source.position(begin)[0]
-        rows = self._scanner_for(state).scan(begin, first)
+        rows = self._scanner_for(state).scan(begin, first, most)
         left = len(rows) if limit is None else min(len(rows), limit)
         taken = self._advance(state, rows, left) if left else None
-        if taken is not None:
-            n = len(taken.stretch)
-            reader.skip_to(rows.end if n == len(rows) else int(rows.stops[n - 1]))
-            if int(rows.line[n - 1]) - first == n - 1:  # every line is a row
-                self._source.learn(begin, rows.stops[:n], first)
-        return taken
+        n = 0 if taken is None else len(taken.stretch)
+        self._learn(n, len(rows), most)
+        if taken is None:
+            return None
+        reader.skip_to(rows.end if n == len(rows) else int(rows.stops[n - 1]))
+        if int(rows.line[n - 1]) - first == n - 1:  # every line is a row
+            self._source.learn(begin, rows.stops[:n], first)
+        return taken._replace(more=n == most)
+
+    def _pauses(self) -> bool:
+        self._pause -= self._pause > 0
+        return self._pause > 0
+
+    def _learn(self, taken: int, scanned: int, most: int) -> None:
+        """How many rows are scanned next, and how many blocks are left to the step lane before:
+        what is scanned and not taken is scanned once more."""
+        if taken == scanned:
+            self._most, self._vain = min(CHUNK, 2 * most), 0
+            return
+        self._most = min(CHUNK, max(FEWEST, 2 * taken))
+        self._vain = 0 if taken >= WORTH else min(self._vain + 1, MOST_VAIN)
+        self._pause = 2**self._vain
 
     def _scanner_for(self, state: State) -> Scanner:
         if self._scanner is None or self._axes is not state.axes:
@@ -140,7 +164,7 @@ class BulkLane:
         )
         turned = np.flatnonzero((ways[:n] != program[:n]).any(axis=1)) if terms.wraps else ()
         after = _state_after(state, stretch, bool(absolute[n - 1]), found)
-        return Taken(after, stretch, {int(r): ways[r] for r in turned}, found.arcs, n == CHUNK)
+        return Taken(after, stretch, {int(r): ways[r] for r in turned}, found.arcs)
 
 
 def _programmed(

@@ -84,10 +84,11 @@ class Scanner:
         self._circular, self._centre = np.empty(CHUNK, dtype=np.uint8), np.empty((CHUNK, 4))
         self._stops = np.empty(CHUNK, dtype=np.int64)
 
-    def scan(self, offset: int, line: int) -> PlainRows:
-        """The plain blocks from `offset`, which begins line `line`, up to CHUNK rows."""
+    def scan(self, offset: int, line: int, most: int = CHUNK) -> PlainRows:
+        """The plain blocks from `offset`, which begins line `line`, up to `most` rows."""
         count, end = _scan(
-            self.data, self._size, np.uint64(offset), line, self.columns, self._signed, _POWERS,
+            self.data, self._size, np.uint64(offset), np.uint64(most), line, self.columns,
+            self._signed, _POWERS,
             self._line, self._block, self._codes, self._feed, self._values, self._circular,
             self._centre, self._stops,
         )  # fmt: skip
@@ -116,14 +117,14 @@ def _whole_lines(data):
 
 @compiled
 def _scan(
-    data, size, at, line, columns, signed, powers, lines, blocks, codes, feeds, values, circular,
-    centre, stops
+    data, size, at, most, line, columns, signed, powers, lines, blocks, codes, feeds, values,
+    circular, centre, stops
 ):  # fmt: skip
-    """Rows read, and the offset behind them; a line without words between plain blocks belongs to
-    the run. Each line before `size` ends with a line feed, so that no loop below it needs another
-    end."""
+    """Rows read, at most so many, and the offset behind them. A line without words between plain
+    blocks belongs to the run. Each line before `size` ends with a line feed, so that no loop below
+    it needs another end."""
     count = _NONE
-    while at < size and count < len(lines):
+    while at < size and count < most:
         stop, axes = _read_line(
             data, at, columns, signed, powers, blocks, codes, feeds, values, circular, centre, count
         )
