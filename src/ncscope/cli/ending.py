@@ -23,6 +23,8 @@ def end_with(work: Callable[[], None]) -> NoReturn:
         sys.stdout.flush()
     except BrokenPipeError:  # the reader has seen enough
         code = 0
+    except KeyboardInterrupt:  # while a reader lets the last output wait
+        code = INTERRUPTED
     except OSError as error:
         where = error.filename or "the output"
         print(f"ncscope: cannot write {where}: {error.strerror or error}", file=sys.stderr)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ncscope.compilation import compiled
 from ncscope.coordinates import Coordinates
 from ncscope.frames import Array
 from ncscope.kinematics.step import KinematicsError
@@ -75,27 +76,43 @@ def _shares(arcs: Arcs, slopes: Array, beside: Array) -> tuple[NDArray[np.int64]
     """Arcs (k,) and shares (k,) of them, ends left out, at which a main axis turns back.
 
     slopes: (n, 3) how far the main axes go for one millimetre of each programmed axis. beside:
-    (k, 3) how far each arc takes them straight on: where that is not 0, an axis turns back later
-    or earlier than at its farthest point of the circle, by the same angle before each half turn
-    and behind the next; or never, where it is faster than the circle.
+    (k, 3) how far each arc takes them straight on.
     """
-    plane, (begin, sweep) = arcs.axes, arcs.values[:, 2:4].T
-    low = np.minimum(begin, begin + sweep)
-    most = np.ceil(np.abs(sweep) / math.pi).astype(np.int64) + 3
-    place = np.repeat(np.arange(len(arcs)), most)
-    half_turn = np.arange(len(place)) - np.repeat(np.cumsum(most) - most, most)
-    places, shares = [], []
-    ways = zip(slopes[plane[:, 0]].T, slopes[plane[:, 1]].T, beside.T, strict=True)
-    for along, across, straight in ways:
-        size = np.hypot(along, across)
-        with np.errstate(all="ignore"):  # NaN where the axis never turns back
-            later = np.arcsin(straight / (arcs.radius * size * sweep))
-        farthest = np.arctan2(across, along)
-        first = np.ceil((low - farthest) / math.pi) - 1
-        turn = first[place] + half_turn
-        angle = farthest[place] + turn * math.pi + np.where(turn % 2, -1.0, 1.0) * later[place]
-        share = (angle - begin[place]) / sweep[place]
-        inside = (share > 0.0) & (share < 1.0) & (size > SMALLEST)[place]
-        places.append(place[inside])
-        shares.append(share[inside])
-    return np.concatenate(places), np.concatenate(shares)
+    half_turns = np.ceil(np.abs(arcs.sweep_rad) / math.pi).astype(np.int64) + 3
+    room = 3 * int(half_turns.sum())
+    place, share = np.empty(room, np.int64), np.empty(room)
+    count = _turns_back(
+        arcs.axes, arcs.values, arcs.radius, half_turns, slopes, beside, place, share
+    )
+    return place[:count], share[:count]
+
+
+@compiled
+def _turns_back(axes, values, radius, half_turns, slopes, beside, place, share):
+    """Writes `_shares`; how many there are.
+
+    Where an arc takes an axis straight on, as a helix does, it turns back later or earlier than at
+    its farthest point of the circle, by the same angle before each half turn and behind the next;
+    or never, where it is faster than the circle.
+    """
+    count = 0
+    for i in range(len(axes)):
+        begin, sweep = values[i, 2], values[i, 3]
+        low = min(begin, begin + sweep)
+        for axis in range(3):
+            along, across = slopes[axes[i, 0], axis], slopes[axes[i, 1], axis]
+            size = math.sqrt(along * along + across * across)
+            if size <= SMALLEST:
+                continue
+            straight = beside[i, axis] / (radius[i] * size * sweep)
+            if not abs(straight) <= 1.0:
+                continue
+            later, farthest = math.asin(straight), math.atan2(across, along)
+            first = math.ceil((low - farthest) / math.pi) - 1
+            for turn in range(first, first + half_turns[i]):
+                angle = farthest + turn * math.pi + (-later if turn % 2 else later)
+                part = (angle - begin) / sweep
+                if 0.0 < part < 1.0:
+                    place[count], share[count] = i, part
+                    count += 1
+    return count
