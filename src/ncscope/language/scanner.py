@@ -166,20 +166,28 @@ def _read_line(
     words, axes, given = 0, 0, 0
     while True:
         char = data[at]
-        if char == 32 or char == 9 or (char == 13 and data[at + _ONE] == 10):
-            at += _ONE
-            continue
-        if char == 10:
-            break
-        if char == 40 or char == 59:
-            at = _behind_comment(data, at)
+        if char < 65:
+            if char == 32 or char == 9 or (char == 13 and data[at + _ONE] == 10):
+                at += _ONE
+                continue
+            if char == 10:
+                break
+            at = _behind_comment(data, at) if char == 40 or char == 59 else _NONE
             if at == _NONE:
                 return _NONE, 0
             continue
         number, decimals, whole, sign, at = _number(data, at + _ONE)
         if at == _NONE:
             return _NONE, 0
-        if char == 78:  # N
+        known = columns[char]
+        if known >= 0:
+            column = np.uint64(known)
+            if not np.isnan(values[row, column]) or (sign > 0 and signed[column]):
+                return _NONE, 0
+            value = number / powers[decimals]
+            values[row, column] = -value if sign < 0 else value
+            axes += 1
+        elif char == 78:  # N
             if words > 0 or not whole or number > _HIGHEST_BLOCK:
                 return _NONE, 0
             block = number
@@ -204,15 +212,7 @@ def _read_line(
             centre[row, np.uint64(place)] = -value if sign < 0 else value
             axes += place < 3
         else:
-            known = columns[char]
-            if known < 0:
-                return _NONE, 0
-            column = np.uint64(known)
-            if not np.isnan(values[row, column]) or (sign > 0 and signed[column]):
-                return _NONE, 0
-            value = number / powers[decimals]
-            values[row, column] = -value if sign < 0 else value
-            axes += 1
+            return _NONE, 0
         words += 1
     if at > longest or (words > 0 and axes == 0):
         return _NONE, 0
