@@ -27,7 +27,8 @@ from ncscope.motion import MOTIONS
 from ncscope.motion.arc import angles_and_radii
 from ncscope.motion.arcs import NO_ARCS, Arcs
 
-CLOCKWISE, COUNTER = MOTIONS.index("G02"), MOTIONS.index("G03")
+CLOCKWISE = MOTIONS.index("G02")
+"""The first of the circular motions; the other one, G03, follows it."""
 RADIUS = 3
 """Place of R behind I, J and K."""
 
